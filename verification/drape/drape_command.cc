@@ -62,7 +62,7 @@ void DrapeCommand::add(CommandLine &line)
     ->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
     ->required();
   add_list(*command, "--unit-cells", study.cell_files,
-           "Cell files in place of the scene's, comma-separated");
+           "Cell files instead of the scene's, comma-separated");
   add_list(*command, "--references", study.references,
            "Full-resolution cloths to run beside it, comma-separated: shell, biot, green, yarn");
   add_list(*command, "--variants", study.variants,
@@ -70,14 +70,12 @@ void DrapeCommand::add(CommandLine &line)
            "nodal-warping, the paper's (default: yarn where a phase loses ellipticity under biot\n"
            "before 20 %, else biot)");
   add_list(*command, "--methods", study.methods,
-           "Ways to the fine positions, as `homespun strain --help` has them; those with the terms "
-           "p2,\n"
+           "Methods of up-sampling, as in `homespun strain --help`; those with the terms p2,\n"
            "cubic or edges (of a scene with the term selvedge) move coarse cloths of their own");
-  command
-    ->add_option("--cells", study.n_cells, "Cells per side of a sheet, in place of the scene's")
+  command->add_option("--cells", study.n_cells, "Cells per side of a sheet, instead of the scene's")
     ->check(CLI::Range(1, 400));
-  command->add_option("--time-step", study.time_step, "[s], in place of the scene's");
-  command->add_option("--duration", study.duration, "[s], in place of the scene's");
+  command->add_option("--time-step", study.time_step, "[s], instead of the scene's");
+  command->add_option("--duration", study.duration, "[s], instead of the scene's");
   add_list(*command, "--frames", study.frames,
            "Formats of the frames, comma-separated: vtu, ply, obj");
   command->add_flag("--no-frames", arguments->no_frames, "Write no frames");

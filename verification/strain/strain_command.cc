@@ -107,14 +107,13 @@ void StrainCommand::add(CommandLine &line)
   add_list(*command, "--references", study.references,
            "Laws of the fine reference (default linear, yarn or biot by the cell, green)");
   add_list(*command, "--methods", study.methods,
-           "Ways to the fine positions, comma-separated: a preset, and terms added to it or taken "
-           "away");
+           "Methods of up-sampling, comma-separated: a preset, with terms added or removed");
   command->add_flag("--quick", study.is_quick,
                     "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
   command->add_flag("!--no-budget", study.budget,
                     "Leave out the error budget: budget.csv, the error split into its parts");
   command->add_flag("!--no-runtime", study.run_time,
-                    "Leave out error against run time: runtime.csv, every way to the positions");
+                    "Leave out error against run time: runtime.csv, every method");
   command->add_flag("--keep", study.keep,
                     "Keep meshes and positions of every level in CELL/positions/, for a method of "
                     "your own: see `homespun judge`");
@@ -133,16 +132,15 @@ void StrainCommand::add(CommandLine &line)
      "(slip, tension and layers of the sheet's edges), cubic (energy of the coarse cloth), modes\n"
      "(beside chi; quadratic, or under yarn fitted over the strains of the study), micro (chi and "
      "what\n"
-     "goes with it). Like localized+p2, full-cubic-modes, full-micro. What up-sampling itself is\n"
-     "worth is told beside the coarse cloth of full: have full-micro and affine+p2 among them.\n"
+     "goes with it). Like localized+p2, full-cubic-modes, full-micro. The gain of up-sampling\n"
+     "itself is measured against the coarse cloth of full: include full-micro and affine+p2.\n"
      "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
      "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
      "(CELL/sheet-LOAD-STRAIN.vtu).\n"
      "References: linear; biot (that of the corotational coarse cloth); yarn (stretch and angle "
      "of\n"
      "two yarns, for cells with orthotropic phases; the coarse cloth takes it, too); green\n"
-     "(St. Venant-Kirchhoff). Where none are asked for, a cell has yarn in place of biot if one "
-     "of\n"
+     "(St. Venant-Kirchhoff). By default, a cell has yarn instead of biot if one of\n"
      "its phases, pulled along a yarn, has no minimum under biot before 20 % (4/(E/G - 4)).\n"
      "Example:\n  homespun strain mycell.prm --quick\n"
      "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1"},
