@@ -22,7 +22,7 @@ from flat import flat  # noqa: E402
 from learned import learned  # noqa: E402
 from pod import pod  # noqa: E402
 from smooth import smooth  # noqa: E402
-from training import equilibrium  # noqa: E402
+from training import equilibrium, stiffness_of  # noqa: E402
 
 LEVEL = ("strip-1", 0.01, "linear")
 
@@ -58,6 +58,12 @@ class Peers(unittest.TestCase):
             self.pulled(mesh.coarse_rest, mesh.coarse_triangles,
                         numpy.tile(self.study.cell.stiffness, (len(one), 1, 1)), one),
             self.study.coarse(*LEVEL), rtol=0.0, atol=1e-14)
+
+    def test_stiffness_is_that_of_plane_stress(self):
+        modulus, ratio, thickness = 2e6, 0.3, 5e-4
+        compliance = [[1.0, -ratio, 0.0], [-ratio, 1.0, 0.0], [0.0, 0.0, 2.0 * (1.0 + ratio)]]
+        numpy.testing.assert_allclose(stiffness_of(modulus, ratio, thickness) @ compliance,
+                                      modulus * thickness * numpy.eye(3), rtol=1e-14, atol=1e-9)
 
     def test_every_method_keeps_what_it_must(self):
         mesh, turn = self.mesh, numpy.array([[0.96, 0.28], [-0.28, 0.96]])
