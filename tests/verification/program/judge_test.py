@@ -272,6 +272,11 @@ class JudgeFrames(InFolder):
         self.judged({2: self.kept_frame(2) + [0., 0., 1e-8]}, "shifted")
         own = rows_of(self.folder / "judged-shifted" / "drape.csv")[-1]
         self.assertAlmostEqual(float(own["error_mean_m"]), 1e-8, delta=1e-15)
+        # The fluctuation is what the coarse motion lacks, the side of the cell a centimetre.
+        lacks = next(float(row["error_mean_m"]) for row in self.rows
+                     if row["method"] == "affine" and row["frame"] == "2")
+        self.assertAlmostEqual(float(own["error_mean_per_fluctuation"]) * lacks, 1e-8, delta=1e-15)
+        self.assertAlmostEqual(float(own["error_mean_per_cell"]), 1e-6, delta=1e-13)
 
     def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
         good = self.kept_frame(2)
