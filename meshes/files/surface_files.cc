@@ -4,7 +4,8 @@
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 
-#include <cctype>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -92,37 +93,118 @@ std::string field_data(const std::vector<WordList> &lists)
 }
 } // namespace
 
-void write_ply(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
-               const std::vector<VertexData> &scalars)
+ClothLook ClothLook::of(const Points &rest, const Triangles &corners,
+                        const Eigen::VectorXi &material)
 {
-  check(file, positions, triangles, scalars);
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment positions in metres\n"
-                     "element vertex " +
+  const Eigen::RowVector2d low = rest.colwise().minCoeff(), size = rest.colwise().maxCoeff() - low;
+  return {material, (rest.rowwise() - low) / size.maxCoeff(), corners};
+}
+
+Eigen::RowVector3f colour_of_phase(const int phase)
+{
+  constexpr std::array<std::array<int, 3>, 8> colours = {{{230, 159, 0},
+                                                          {86, 180, 233},
+                                                          {0, 158, 115},
+                                                          {240, 228, 66},
+                                                          {0, 114, 178},
+                                                          {213, 94, 0},
+                                                          {204, 121, 167},
+                                                          {120, 120, 120}}};
+  const std::array<int, 3> &of = colours[static_cast<std::size_t>(phase) % colours.size()];
+  return Eigen::RowVector3f(static_cast<float>(of[0]), static_cast<float>(of[1]),
+                            static_cast<float>(of[2])) /
+         255.f;
+}
+
+namespace
+{
+void append_colour(std::string &bytes, const Eigen::RowVector3f &colour)
+{
+  for (int c = 0; c < 3; ++c)
+    bytes += static_cast<char>(static_cast<unsigned char>(std::lround(255.f * colour(c))));
+}
+
+/// What vertices have of a look: texture coordinates, and colours, the mean of their triangles.
+Eigen::Matrix<float, Eigen::Dynamic, 5, Eigen::RowMajor>
+look_at_vertices(const ClothLook &look, const Triangles &triangles, const Eigen::Index n_vertices)
+{
+  Eigen::Matrix<float, Eigen::Dynamic, 5, Eigen::RowMajor> at_vertices;
+  at_vertices.setZero(n_vertices, 5);
+  Eigen::VectorXf n_triangles = Eigen::VectorXf::Zero(n_vertices);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const int v                  = triangles(t, k);
+      at_vertices.row(v).head<2>() = look.texture.row(look.corners(t, k)).cast<float>();
+      at_vertices.row(v).tail<3>() += colour_of_phase(look.material(t));
+      n_triangles(v) += 1.f;
+    }
+  for (Eigen::Index v = 0; v < n_vertices; ++v)
+    at_vertices.row(v).tail<3>() /= std::max(n_triangles(v), 1.f);
+  return at_vertices;
+}
+
+void check_look(const std::string &file, const ClothLook &look, const FloatPoints &positions,
+                const Triangles &triangles, const FloatPoints &normals)
+{
+  if (normals.rows() != 0 && (normals.rows() != positions.rows() || !normals.allFinite()))
+    refuse(file, "normals are not finite, or not one for each vertex");
+  if (look.material.size() == 0)
+    return;
+  if (look.material.size() != triangles.rows() || look.corners.rows() != triangles.rows() ||
+      look.material.minCoeff() < 0 || look.corners.minCoeff() < 0 ||
+      look.corners.maxCoeff() >= look.texture.rows() || !look.texture.allFinite())
+    refuse(file, "phases or texture coordinates do not belong to its triangles");
+}
+} // namespace
+
+void write_ply(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
+               const ClothLook &look, const FloatPoints &normals)
+{
+  check(file, positions, triangles, {});
+  check_look(file, look, positions, triangles, normals);
+  const bool has_look = look.material.size() > 0, has_normals = normals.rows() > 0;
+  const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  std::string text         = "ply\nformat binary_little_endian 1.0\ncomment positions in metres\n"
+                             "element vertex " +
                      std::to_string(positions.rows()) +
                      "\nproperty float x\nproperty float y\nproperty float z\n";
-  for (const VertexData &scalar : scalars)
-  {
-    bool is_plain = !scalar.name.empty();
-    for (const char c : scalar.name)
-      is_plain = is_plain && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
-    if (!is_plain || scalar.values.cols() != 1)
-      throw BadInput(file + ": not written: `" + scalar.name + "` has " +
-                     std::to_string(scalar.values.cols()) +
-                     " components; expected one, and a name of letters, digits and _");
-    text += "property float " + scalar.name + "\n";
-  }
+  if (has_normals)
+    text += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (has_look)
+    text += "property float s\nproperty float t\n" + colour;
   text += "element face " + std::to_string(triangles.rows()) +
-          "\nproperty list uchar int vertex_indices\nend_header\n";
+          "\nproperty list uchar int vertex_indices\n";
+  if (has_look)
+    text += "property int material\n" + colour + "property list uchar float texcoord\n";
+  text += "end_header\n";
+  const auto at_vertices = has_look ? look_at_vertices(look, triangles, positions.rows())
+                                    : decltype(look_at_vertices(look, triangles, 0))();
   for (Eigen::Index v = 0; v < positions.rows(); ++v)
   {
     append_bytes(text, positions.data() + 3 * v, 3);
-    for (const VertexData &scalar : scalars)
-      append_bytes(text, scalar.values.data() + v, 1);
+    if (has_normals)
+      append_bytes(text, normals.data() + 3 * v, 3);
+    if (has_look)
+    {
+      append_bytes(text, at_vertices.data() + 5 * v, 2);
+      append_colour(text, at_vertices.row(v).tail<3>());
+    }
   }
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
   {
     text += '\3';
     append_bytes(text, triangles.data() + 3 * t, 3);
+    if (!has_look)
+      continue;
+    append_bytes(text, look.material.data() + t, 1);
+    append_colour(text, colour_of_phase(look.material(t)));
+    text += '\6';
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::RowVector2f place = look.texture.row(look.corners(t, k)).cast<float>();
+      append_bytes(text, place.data(), 2);
+    }
   }
   write_whole(file, text);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/drape/drape_output.h"
 
+#include "localization/vertex_normals.h"
 #include "meshes/files/obj_file.h"
 #include "verification/record/number_text.h"
 
@@ -98,7 +99,13 @@ void DrapeOutput::write_frame(const Frame &frame, const meshes::SpacePoints &pos
     const std::string name = frame_name(frame.what, frame.number, format);
     const std::string path = folder + "/" + frame.run + "/" + name;
     if (format == "ply")
-      meshes::write_ply(path, positions.cast<float>(), triangles);
+    {
+      const meshes::FloatPoints in_float = positions.cast<float>();
+      meshes::write_ply(path, in_float, triangles, data.look,
+                        data.look.material.size() == 0
+                          ? meshes::FloatPoints()
+                          : localization::vertex_normals<float>(in_float, triangles));
+    }
     else if (format == "obj")
       meshes::write_obj(path, positions, triangles);
     else

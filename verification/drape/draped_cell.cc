@@ -231,6 +231,7 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   for (int t = 0; t < rest.n_triangles(); ++t)
     material(t) = static_cast<float>(group_of_phase[static_cast<std::size_t>(rest.material(t))]);
   data.on_triangles = {{"material", material}};
+  data.look         = meshes::ClothLook::of(rest.vertices, rest.triangles, rest.material);
 }
 
 Method DrapedCell::used(const Method &method) const

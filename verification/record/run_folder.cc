@@ -97,8 +97,8 @@ std::vector<std::string> foreign_files(const std::string &folder,
                                        const std::optional<ordered_json> &earlier)
 {
   static const std::set<std::string> kinds = {
-    ".csv", ".json", ".h5",  ".vtu", ".pvtu", ".pvd",  ".ply",  ".obj", ".usda", ".html",
-    ".svg", ".png",  ".pdf", ".js",  ".inp",  ".comm", ".webp", ".gif", ".tmp"};
+    ".csv",  ".json", ".h5",  ".vtu", ".pvtu", ".pvd", ".ply",  ".obj",  ".usda", ".pc2",
+    ".html", ".svg",  ".png", ".pdf", ".js",   ".inp", ".comm", ".webp", ".gif",  ".tmp"};
   std::vector<std::string> foreign;
   for (const std::string &file : files_in(folder))
   {

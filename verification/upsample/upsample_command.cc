@@ -22,7 +22,7 @@ namespace
 void check_upsample_arguments(const UpsampleOptions &study)
 {
   ArgumentFaults faults;
-  faults.check_names("--format", study.formats, {"vtu", "ply", "obj", "usda"});
+  faults.check_names("--format", study.formats, {"vtu", "ply", "obj", "usda", "pc2"});
   faults.check_names("--up", {study.up}, {"y", "z"});
   if (study.origin.size() != 2 || !std::isfinite(study.origin[0]) ||
       !std::isfinite(study.origin[1]))
@@ -65,7 +65,8 @@ void UpsampleCommand::add(CommandLine &line)
                  "The coarse mesh at rest, .obj or .ply, whose faces all frames have")
     ->required();
   add_list(*command, "--format", study->formats,
-           "Formats of the results, comma-separated: vtu, ply, obj, usda");
+           "Formats of the results, comma-separated: a file per frame as vtu, ply, obj, all frames "
+           "in one file as usda, pc2");
   add_list(*command, "--origin", study->origin,
            "Rest point [m] that is a corner of a cell, as in 0.1,0.2");
   command

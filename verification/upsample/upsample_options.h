@@ -14,7 +14,7 @@ struct UpsampleOptions
   std::string cell_file;                       ///< cell.h5
   std::string rest_file;                       ///< .obj or .ply, whose faces all frames have
   std::vector<std::string> frames;             ///< files and patterns
-  std::vector<std::string> formats = {"vtu"};  ///< vtu, ply, obj, usda
+  std::vector<std::string> formats = {"vtu"};  ///< vtu, ply, obj, usda, pc2
   std::vector<double> origin       = {0., 0.}; ///< a lattice point of the cells, at rest [m]
   double angle        = 0.;    ///< of the cell's first axis against the first rest axis [degrees]
   double unit         = 1.;    ///< metres per unit of the positions, at rest and of frames [m]

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verification/upsample/upsample_study.h"
 
+#include "localization/vertex_normals.h"
 #include "meshes/files/cell_file.h"
+#include "meshes/files/frame_caches.h"
 #include "meshes/files/obj_file.h"
-#include "meshes/files/surface_files.h"
-#include "meshes/files/usd_file.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/checksum.h"
 #include "verification/record/json_files.h"
@@ -81,12 +81,17 @@ public:
       open_run_folder(options.output, {"upsample", inputs()}, options.earlier, options.quiet);
     table = std::make_unique<Table<UpsampleRow>>(options.output);
     Progress progress(!options.quiet, static_cast<int>(frames.size()));
+    begin_caches();
     for (const FrameFile &frame : frames)
     {
       progress.begin(frame.name);
       upsample(frame);
       progress.done();
     }
+    if (cache)
+      cache->finish();
+    if (animation)
+      animation->finish();
     names = names_in_folder();
     if (has_format("vtu"))
       write_collection();
@@ -142,6 +147,23 @@ private:
             {"valid_strain", valid ? ordered_json(valid->strain) : ordered_json()}};
   }
 
+  static bool is_of_all_frames(const std::string &format)
+  {
+    return format == "pc2" || format == "usda";
+  }
+
+  /// The files that hold all frames of this call.
+  void begin_caches()
+  {
+    const int n_points = fine->upsampler->n_fine(), n_frames = static_cast<int>(frames.size());
+    if (has_format("pc2"))
+      cache = std::make_unique<meshes::PointCache>(path_of("frames", "pc2"), n_points, n_frames);
+    if (has_format("usda"))
+      animation = std::make_unique<meshes::UsdAnimation>(
+        path_of("frames", "usda"), n_points, fine->triangles, fine->look,
+        meshes::UsdStage{options.up == "y" ? meshes::UpAxis::y : meshes::UpAxis::z, n_frames});
+  }
+
   std::string path_of(const std::string &frame, const std::string &format) const
   {
     return options.output + "/" + frame + "." + format;
@@ -157,7 +179,7 @@ private:
     return n_rows == indicators.size() &&
            std::all_of(options.formats.begin(), options.formats.end(),
                        [&](const std::string &format)
-                       { return fs::exists(path_of(frame, format)); });
+                       { return is_of_all_frames(format) || fs::exists(path_of(frame, format)); });
   }
 
   /// The frames that are there, those of earlier calls too, as comes_before() has them.
@@ -181,7 +203,8 @@ private:
   void upsample(const FrameFile &frame)
   {
     const std::string checksum = checksum_of_file(frame.file);
-    if (is_made(frame.name, checksum))
+    const bool is_there        = is_made(frame.name, checksum);
+    if (is_there && !cache && !animation)
       return;
     Polygons mesh;
     seconds["read"].push_back(seconds_of([&]() { mesh = read_in_metres(frame.file, options); }));
@@ -193,12 +216,19 @@ private:
     meshes::FloatPoints positions;
     seconds["upsample"].push_back(
       seconds_of([&]() { fine->upsampler->upsample(mesh.positions, positions); }));
+    if (cache)
+      seconds["write_pc2"].push_back(seconds_of([&]() { cache->append(positions); }));
+    if (animation)
+      seconds["write_usda"].push_back(seconds_of([&]() { animation->append(positions); }));
+    if (is_there)
+      return;
     TriangleIndicators values;
     seconds["indicators"].push_back(
       seconds_of([&]() { values = indicators_of->of(mesh.positions); }));
     for (const std::string &format : options.formats)
-      seconds["write_" + format].push_back(
-        seconds_of([&]() { write(path_of(frame.name, format), format, positions, values); }));
+      if (!is_of_all_frames(format))
+        seconds["write_" + format].push_back(
+          seconds_of([&]() { write(path_of(frame.name, format), format, positions, values); }));
     // What a run that was killed, or another file of this name, has left.
     table->keep([&](const UpsampleRow &row) { return row.frame != frame.name; });
     for (const Indicator &indicator : indicators)
@@ -224,12 +254,10 @@ private:
              const meshes::FloatPoints &positions, const TriangleIndicators &values) const
   {
     if (format == "ply")
-      meshes::write_ply(path, positions, fine->triangles);
+      meshes::write_ply(path, positions, fine->triangles, fine->look,
+                        localization::vertex_normals<float>(positions, fine->triangles));
     else if (format == "obj")
       meshes::write_obj(path, positions.cast<double>(), fine->triangles);
-    else if (format == "usda")
-      meshes::write_usda(path, positions, fine->triangles,
-                         options.up == "y" ? meshes::UpAxis::y : meshes::UpAxis::z);
     else
     {
       std::vector<meshes::VertexData> data;
@@ -242,7 +270,7 @@ private:
         data.push_back({std::string(indicator.name) + " [-]", at_fine});
       }
       meshes::write_vtu(path, positions, fine->triangles, data,
-                        {{"material", fine->material.cast<float>()}});
+                        {{"material", fine->look.material.cast<float>()}});
     }
   }
 
@@ -310,6 +338,8 @@ private:
   std::vector<std::string> names;      ///< of all frames in the folder, once this call's are made
   std::optional<ValidStrain> valid;
   std::unique_ptr<UpsampledCloth> fine;
+  std::unique_ptr<meshes::PointCache> cache;       ///< where they are asked for
+  std::unique_ptr<meshes::UsdAnimation> animation; ///< the same
   std::unique_ptr<CoarseIndicators> indicators_of;
   std::unique_ptr<Table<UpsampleRow>> table;
   std::map<std::string, std::vector<double>> seconds; ///< of each part of each frame

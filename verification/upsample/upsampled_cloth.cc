@@ -68,7 +68,7 @@ UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &res
     description = "a sheet of " + std::to_string(whole->n1) + " x " + std::to_string(whole->n2) +
                   " cells, two coarse triangles each";
     triangles = sheet.mesh.triangles;
-    material  = sheet.mesh.material;
+    look      = meshes::ClothLook::of(sheet.mesh.vertices, triangles, sheet.mesh.material);
     const meshes::TriangleMesh over_sheet =
       meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, whole->n1, whole->n2);
     upsampler = std::make_unique<Upsampler>(cell, over_sheet, sheet);
@@ -87,8 +87,8 @@ UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &res
   const int n_panels           = meshes::panels_of(rest).count;
   description = std::to_string(n_panels) + (n_panels == 1 ? " panel" : " panels") + ", " +
                 std::to_string(rest.n_triangles()) + " coarse triangles, cells cut along outlines";
-  triangles       = fine.sewn_triangles();
-  material        = fine.rest.material;
+  triangles = fine.sewn_triangles();
+  look      = meshes::ClothLook::of(fine.rest.vertices, fine.rest.triangles, fine.rest.material);
   coarse_triangle = fine.coarse_triangle;
   upsampler       = std::make_unique<Upsampler>(localization::placed_garment(cell, coarse, fine));
 }

@@ -4,6 +4,7 @@
 
 #include "localization/upsampler.h"
 #include "meshes/cloth/cloth_mesh.h"
+#include "meshes/files/surface_files.h"
 #include "meshes/garment/fine_cloth_options.h"
 #include "meshes/plain/homogenized_cell.h"
 
@@ -29,7 +30,7 @@ struct UpsampledCloth
   meshes::ClothMesh coarse;        ///< as given; the rest state of a sheet is that of whole cells
   std::string description;         ///< "a sheet of 20 x 20 cells"
   meshes::Triangles triangles;     ///< (k,3) between fine vertices
-  Eigen::VectorXi material;        ///< (k) phases of the cell
+  meshes::ClothLook look;          ///< its phases, and texture by the rest coordinates
   Eigen::VectorXi coarse_triangle; ///< the coarse triangle of each fine vertex
   std::unique_ptr<localization::Upsampler<3, float>> upsampler;
 };

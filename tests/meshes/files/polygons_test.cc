@@ -4,7 +4,6 @@
 
 #include "meshes/files/obj_file.h"
 #include "meshes/files/surface_files.h"
-#include "meshes/files/usd_file.h"
 #include "tests/content_of.h"
 #include "tests/refusal.h"
 
@@ -215,34 +214,6 @@ TEST(tripwire_polygons, faults_are_named)
             std::string::npos);
   EXPECT_NE(tests::refusal([]() { read_polygons("/nowhere/a.ply"); })
               .find("/nowhere/a.ply: cannot be read"),
-            std::string::npos);
-}
-
-TEST(exact_usd, a_mesh_is_written_as_one_prim_in_metres)
-{
-  FloatPoints points(3, 3);
-  points << 0.f, 0.f, 0.1f, 1.f, 0.f, -0.25f, 0.f, 2.f, 1e-9f;
-  Triangles triangles(1, 3);
-  triangles << 0, 1, 2;
-  const std::string file = file_with("", "mesh.usda");
-  write_usda(file, points, triangles, UpAxis::y);
-  EXPECT_EQ(tests::content_of(file),
-            "#usda 1.0\n(\n    defaultPrim = \"cloth\"\n"
-            "    doc = \"up-sampled by homespun\"\n    metersPerUnit = 1\n"
-            "    upAxis = \"Y\"\n)\n\ndef Mesh \"cloth\"\n{\n"
-            "    float3[] extent = [(0, 0, -0.25), (1, 2, 0.1)]\n"
-            "    int[] faceVertexCounts = [3]\n"
-            "    int[] faceVertexIndices = [0, 1, 2]\n"
-            "    point3f[] points = [(0, 0, 0.1), (1, 0, -0.25), (0, 2, 1e-09)]\n"
-            "    uniform token subdivisionScheme = \"none\"\n}\n");
-  points(1, 1) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_NE(tests::refusal([&]() { write_usda(file, points, triangles, UpAxis::z); })
-              .find("vertex 1 has a position that is not finite"),
-            std::string::npos);
-  points(1, 1)    = 0.f;
-  triangles(0, 2) = 3;
-  EXPECT_NE(tests::refusal([&]() { write_usda(file, points, triangles, UpAxis::z); })
-              .find("names a vertex that does not exist; expected 0 to 2"),
             std::string::npos);
 }
 } // namespace homespun::meshes

@@ -56,7 +56,7 @@ class BadInput(Upsampling):
                 (("--rest", self.frame("bent.obj", bent), good), "bent.obj: is not flat: vertex "),
                 (("--rest", rest, good, good), "good.obj: has the name of"),
                 (("--rest", rest, good, "--format", "stl"),
-                 "--format: found `stl`; expected vtu, ply, obj or usda"),
+                 "--format: found `stl`; expected vtu, ply, obj, usda or pc2"),
                 (("--rest", rest, good, "--up", "x"), "--up: found `x`; expected y or z"),
                 (("--rest", rest, good, "--origin", "1"), "--origin: expected two numbers"),
                 (("--rest", rest, good, "--vt-unit", "-1"),

@@ -93,23 +93,63 @@ class Results(Upsampling):
         self.assertEqual(study["frames"], 3)
         self.assertEqual(study["fine_vertices"], len(found.points))
 
-    def test_usd_is_well_formed_and_holds_the_mesh(self):
+    def test_one_usd_file_holds_all_frames_and_a_material_for_each_phase(self):
         self.upsample(*self.moving(2), "--format", "usda,vtu", "--up", "y")
-        layer = Usda((self.output / "f_1.usda").read_text())
-        self.assertEqual((layer.kind, layer.name), ("Mesh", '"cloth"'))
-        self.assertEqual(layer.metadata["defaultPrim"], "cloth")
+        layer = Usda((self.output / "frames.usda").read_text())
+        self.assertEqual(layer.metadata["defaultPrim"], layer.prim.name)
         self.assertEqual(layer.metadata["metersPerUnit"], 1.)
         self.assertEqual(layer.metadata["upAxis"], "Y")
-        found = read_vtu(self.output / "f_1.vtu")
-        points = numpy.array(layer.attributes["point3f[] points"], dtype=numpy.float32)
-        numpy.testing.assert_array_equal(points, found.points)
+        self.assertEqual((layer.metadata["startTimeCode"], layer.metadata["endTimeCode"]), (0., 1.))
+        mesh = layer.prim.children["surface"]
+        self.assertEqual(mesh.kind, "Mesh")
+        samples = mesh.attributes["point3f[] points.timeSamples"]
+        self.assertEqual(list(samples), [0., 1.])
+        for frame in (0, 1):
+            found = read_vtu(self.output / f"f_{frame}.vtu")
+            points = numpy.array(samples[frame], dtype=numpy.float32)
+            numpy.testing.assert_array_equal(points, found.points)
+            numpy.testing.assert_array_equal(
+                numpy.array(mesh.attributes["float3[] extent.timeSamples"][frame],
+                            dtype=numpy.float32), [points.min(axis=0), points.max(axis=0)])
         numpy.testing.assert_array_equal(
-            numpy.reshape(layer.attributes["int[] faceVertexIndices"], (-1, 3)), found.triangles)
-        self.assertEqual(layer.attributes["int[] faceVertexCounts"], [3.] * len(found.triangles))
-        numpy.testing.assert_array_equal(
-            numpy.array(layer.attributes["float3[] extent"], dtype=numpy.float32),
-            [points.min(axis=0), points.max(axis=0)])
-        self.assertEqual(layer.attributes["uniform token subdivisionScheme"], "none")
+            numpy.reshape(mesh.attributes["int[] faceVertexIndices"], (-1, 3)), found.triangles)
+        self.assertEqual(mesh.attributes["int[] faceVertexCounts"], [3.] * len(found.triangles))
+        self.assertEqual(mesh.attributes["uniform token subdivisionScheme"], "none")
+        texture = numpy.array(mesh.attributes["texCoord2f[] primvars:st"])
+        self.assertEqual(texture.shape, (3 * len(found.triangles), 2))
+        self.assertEqual((texture.min(), texture.max()), (0., 1.))
+        # Stripes: half of the triangles each, every one in one subset with a material that exists.
+        phases = found.cell_data["material"]
+        self.assertEqual(sorted(mesh.children), ["phase_0", "phase_1"])
+        for k in (0, 1):
+            subset = mesh.children[f"phase_{k}"]
+            self.assertEqual(subset.attributes["int[] indices"],
+                             numpy.flatnonzero(phases == k).tolist())
+            path = subset.attributes["rel material:binding"].split("/")[1:]
+            self.assertEqual(path[:2], [layer.prim.name, "materials"])
+            self.assertIn(path[2], layer.prim.children["materials"].children)
+
+    def test_frames_of_a_point_cache_are_those_of_the_mesh_beside_it(self):
+        self.upsample(*self.moving(3), "--format", "pc2,ply")
+        cache = (self.output / "frames.pc2").read_bytes()
+        version, n_points = numpy.frombuffer(cache, "<i4", 2, 12)
+        n_frames = numpy.frombuffer(cache, "<i4", 1, 28)[0]
+        self.assertEqual((cache[:12], version, n_frames), (b"POINTCACHE2\0", 1, 3))
+        frames = numpy.frombuffer(cache, "<f4", 3 * n_points * 3, 32).reshape(3, n_points, 3)
+        for k in range(3):
+            ply = (self.output / f"f_{k}.ply").read_bytes()
+            head, body = ply.split(b"end_header\n", 1)
+            self.assertIn(b"property float nx", head)
+            self.assertIn(b"property int material", head)
+            vertices = numpy.frombuffer(body, numpy.dtype([("x", "<f4", 8), ("rgb", "u1", 3)]),
+                                        n_points)
+            numpy.testing.assert_array_equal(vertices["x"][:, :3], frames[k])
+            numpy.testing.assert_allclose(vertices["x"][:, 5], 1., rtol=1e-6)  # flat: nz
+        # More frames make the files of all frames anew, and leave finished ones.
+        before = (self.output / "f_1.ply").stat().st_mtime_ns
+        self.upsample(*self.moving(3), "--format", "pc2,ply")
+        self.assertEqual((self.output / "frames.pc2").read_bytes(), cache)
+        self.assertEqual((self.output / "f_1.ply").stat().st_mtime_ns, before)
 
     def test_indicators_stand_against_the_range_of_validity(self):
         (self.folder / "validity.csv").write_text(
@@ -248,22 +288,23 @@ class OneRun(Upsampling):
     def test_a_run_that_was_killed_goes_on_to_the_same_bytes(self):
         frames = self.moving(60, 0.005)
         self.upsample(*frames, "--format", "obj,usda")
-        whole = {path.name: path.read_bytes() for path in self.output.glob("f_*")}
+        whole = {path.name: path.read_bytes() for path in self.output.glob("f*")}
+        self.assertIn("frames.usda", whole)
         shutil.rmtree(self.output)
         process = subprocess.Popen([PROGRAM, "upsample", self.cell, "--rest", self.rest, *frames,
                                     "--format", "obj,usda", "--output", self.output],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         until = time.monotonic() + 60
-        while len(list(self.output.glob("f_*.usda"))) < 5 and time.monotonic() < until:
+        while len(list(self.output.glob("f_*.obj"))) < 5 and time.monotonic() < until:
             time.sleep(0.005)
         process.send_signal(signal.SIGKILL)
         process.wait()
-        self.assertLess(len(list(self.output.glob("f_*.usda"))), 60)
-        for path in self.output.glob("f_*.*"):  # whole or not at all
+        self.assertLess(len(list(self.output.glob("f_*.obj"))), 60)
+        for path in self.output.glob("f*.*"):  # whole or not at all
             if path.suffix != ".part":
                 self.assertEqual(path.read_bytes(), whole[path.name], path)
         self.upsample(*frames, "--format", "obj,usda")
-        self.assertEqual({path.name: path.read_bytes() for path in self.output.glob("f_*")}, whole)
+        self.assertEqual({path.name: path.read_bytes() for path in self.output.glob("f*")}, whole)
         self.assertEqual(len(rows_of(self.output / "upsample.csv")), 180)
 
     def test_another_run_is_told_and_a_newer_format_refused(self):

@@ -97,7 +97,7 @@ TEST(exact_upsampled_cloth, a_sheet_of_whole_cells_has_the_bits_of_the_up_sample
   EXPECT_NE(cloth.description.find("a sheet of 4 x 3 cells"), std::string::npos);
   EXPECT_TRUE(cloth.upsampler->is_aligned());
   EXPECT_EQ(cloth.triangles, own.sheet.mesh.triangles);
-  EXPECT_EQ(cloth.material, own.sheet.mesh.material);
+  EXPECT_EQ(cloth.look.material, own.sheet.mesh.material);
 
   const localization::Upsampler<3, float> direct(own.cell, own.coarse, own.sheet);
   Eigen::Matrix<double, 3, 2> F;
