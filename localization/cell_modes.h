@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The modes of a cell that the options of an up-sampler ask for. Private to upsampler.
+// The modes of a cell that the options of an up-sampler ask for. Private to upsampler and
+// placed_garment.
 #pragma once
 
 #include "localization/kernel.h"

@@ -90,6 +90,33 @@ EdgeModes::Row EdgeModes::at(const int vertex, const EdgeKind kind) const
   return sum;
 }
 
+std::vector<Eigen::Matrix<double, 2, 3>>
+EdgeModes::slip_of(const meshes::TriangleMesh &coarse) const
+{
+  constexpr double nothing = 1e-12;
+  std::vector<Eigen::Matrix<double, 2, 3>> result;
+  if (!are_there() || std::find(kinds.begin(), kinds.end(), EdgeKind::clamped) == kinds.end())
+    return result;
+  for (int v = 0; v < coarse.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d fraction = sheet.fraction(coarse.vertices.row(v));
+    Eigen::Matrix<double, 2, 3> sum   = Eigen::Matrix<double, 2, 3>::Zero();
+    double weights                    = 0.;
+    for (std::size_t side = 0; side < kinds.size(); ++side)
+    {
+      if (kinds[side] != EdgeKind::clamped)
+        continue;
+      const double along    = fraction(meshes::axis_of_side(static_cast<int>(side))),
+                   distance = meshes::is_far_side(static_cast<int>(side)) ? 1. - along : along,
+                   weight   = 1. / std::max(distance, nothing);
+      sum += weight * edges->sides[side].slip;
+      weights += weight;
+    }
+    result.push_back(sum / weights);
+  }
+  return result;
+}
+
 std::vector<std::string> edge_faults(const meshes::HomogenizedCell &cell,
                                      const UpsamplerOptions &options)
 {

@@ -41,6 +41,11 @@ public:
     return at(vertex, EdgeKind::clamped) + at(vertex, EdgeKind::free);
   }
 
+  /// d at the vertices of a coarse mesh [m]: on a clamped edge its own, elsewhere that of all
+  /// clamped edges, weighted by one over the distance, in parts of the sheet; between two that face
+  /// each other it is linear, as where the sheet is strained evenly. Empty where none is clamped.
+  std::vector<Eigen::Matrix<double, 2, 3>> slip_of(const meshes::TriangleMesh &coarse) const;
+
   /// How far a cell of the sheet is from each edge that reaches it, in cells; −1: it does not. The
   /// vertices of cells for which this is alike have the same modes.
   using Depths = std::array<int, meshes::CellEdges::n_sides>;
@@ -50,7 +55,7 @@ private:
   const meshes::HomogenizedCell &cell;
   const meshes::Sheet &sheet;
   const meshes::CellEdges *edges;
-  std::array<EdgeKind, meshes::CellEdges::n_sides> kinds;
+  EdgeKinds kinds;
   /// By axis: of each vertex of the cell that lies at an end of the axis, its image at the other.
   std::array<std::vector<int>, 2> across;
 };

@@ -65,6 +65,16 @@ enum class EdgeKind
   free
 };
 
+/// What each of the four edges of a sheet is, numbered as in meshes::CellEdges.
+using EdgeKinds = std::array<EdgeKind, meshes::CellEdges::n_sides>;
+
+/// Whose coarse positions have the slip of clamped edges, which act d E off where they are held.
+enum class Slip
+{
+  of_cloth, ///< the coarse cloth's, as where it moves by the terms of edges
+  added     ///< nobody's: its edges lie where they are held, and up-sampling adds the slip
+};
+
 struct UpsamplerOptions
 {
   bool microscopic = true; ///< false: the coarse motion interpolated, the baseline `affine`
@@ -74,15 +84,16 @@ struct UpsamplerOptions
   Blend blend      = Blend::continuous;
   Path path        = Path::automatic;
   /// Law of the phases (`biot`, `green`) whose quadratic modes are added to chi, for errors of
-  /// third order in strain: HomogenizedCell::second_order. Empty: none. Not for garments.
+  /// third order in strain: HomogenizedCell::second_order. Empty: none.
   std::string second_order;
   /// Modes of the cell that are added to chi, fitted over a box of strains. Null: none. Read by the
-  /// constructor alone; not with second_order, with Blend::continuous, not for garments.
+  /// constructor alone; not with second_order, with Blend::continuous.
   const meshes::FittedModes *fitted = nullptr;
   /// What the cell does at the edges of a sheet of whole cells: modes that decay from them are
   /// added. Null: none. Read by the constructor alone; with Anchor::mean, and not for garments.
-  const meshes::CellEdges *edges                              = nullptr;
-  std::array<EdgeKind, meshes::CellEdges::n_sides> edge_kinds = {}; ///< numbered as there
+  const meshes::CellEdges *edges = nullptr;
+  EdgeKinds edge_kinds           = {};
+  Slip slip                      = Slip::of_cloth;
   /// Of a garment: over which distance from a seam the fluctuation grows from zero to its full
   /// size, in cell sides sqrt(|Y|), 0 to meshes::seam_reach. With 0 it does not fade, and seams
   /// gape.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
 
-#include "localization/cell_modes.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/point_location.h"
@@ -30,6 +29,7 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
                                   const meshes::Sheet &fine, const UpsamplerOptions &options)
     : frames(coarse_rest, options)
     , options(options)
+    , fitted(options.fitted ? meshes::FittedResponse(*options.fitted) : meshes::FittedResponse())
 {
   auto faults = sheet_faults(cell, fine);
   for (const std::string &fault : edge_faults(cell, options))
@@ -38,8 +38,6 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     faults.push_back(fault);
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  if (options.fitted != nullptr)
-    fitted = meshes::FittedResponse(*options.fitted);
   const CellModes modes = cell_modes(cell, options);
   const EdgeModes near_edges(cell, fine, options);
   const bool free_are_apart = kind_of_modes(options) == fitted_modes_and_free_edges;
@@ -60,6 +58,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     }
     return row;
   };
+  if (options.microscopic && options.slip == Slip::added)
+    slip = near_edges.slip_of(coarse_rest);
   n_total = fine.mesh.n_vertices();
   n_space = coarse_rest.n_vertices();
   if (const int quads = quads_per_cell(fine, coarse_rest);
@@ -77,16 +77,17 @@ Upsampler<dim, Scalar>::Upsampler(const PlacedVertices &placed)
     , space_of_rest(placed.space_of_rest.begin(), placed.space_of_rest.end())
     , n_space(placed.n_space)
     , n_total(static_cast<int>(placed.triangle.size()))
+    , fitted(options.fitted ? meshes::FittedResponse(*options.fitted) : meshes::FittedResponse())
 {
   std::vector<std::vector<Member>> in_triangle(
     static_cast<std::size_t>(placed.coarse_rest.n_triangles()));
   for (int v = 0; v < n_total; ++v)
     in_triangle[static_cast<std::size_t>(placed.triangle(v))].push_back(
       {v, placed.weights.row(v).transpose()});
-  tabulate(in_triangle, [&](const int v) { return placed.chi.row(v).eval(); });
+  tabulate(in_triangle, [&](const int v) { return placed.modes.row(v).eval(); });
   at_rest_vertices.resize(placed.coarse_rest.n_vertices(), dim);
   records.resize(static_cast<std::size_t>(placed.coarse_rest.n_vertices()) *
-                 static_cast<std::size_t>(record_size(linear_modes)));
+                 static_cast<std::size_t>(record_size(kind_of_modes(options))));
 }
 
 template <int dim, typename Scalar>
@@ -207,6 +208,25 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
         records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
   if (are_fitted(kind_of_modes(options)))
     fill_fitted_records(values);
+  if (!slip.empty())
+    add_slip(coarse_current);
+}
+
+/// Moves the coarse vertices by L d E, with the strain that clamped edges follow.
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::add_slip(const PositionsOf<dim> coarse_current) const
+{
+  Scalar *record = records.data();
+  for (Eigen::Index v = 0; v < coarse_current.rows(); ++v)
+  {
+    const Scalar *const E = record + dim, *const L = E + 3;
+    const Eigen::Vector2d moved =
+      slip[static_cast<std::size_t>(v)] * Eigen::Vector3d(E[0], E[1], E[2]);
+    for (int i = 0; i < dim; ++i)
+      record[i] =
+        static_cast<Scalar>(coarse_current(v, i) + L[2 * i] * moved(0) + L[2 * i + 1] * moved(1));
+    record += record_size(kind_of_modes(options));
+  }
 }
 
 template <int dim, typename Scalar>

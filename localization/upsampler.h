@@ -18,8 +18,10 @@
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
 // are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8. Fitted modes
 // take as many numbers; their coefficients are computed at the coarse vertices and linear between.
+// Slip of clamped edges, where up-sampling adds it, moves the coarse vertices before all else.
 #pragma once
 
+#include "localization/cell_modes.h"
 #include "localization/cell_tables.h"
 #include "localization/coarse_frames.h"
 #include "localization/kernel.h"
@@ -34,16 +36,16 @@
 
 namespace homespun::localization
 {
-/// Fine vertices placed one by one, each with its own chi.
+/// Fine vertices placed one by one, each with its own modes.
 struct PlacedVertices
 {
-  UpsamplerOptions options;         ///< without modes beside chi
-  meshes::TriangleMesh coarse_rest; ///< coarse mesh at rest
+  UpsamplerOptions options;         ///< without edges
+  meshes::TriangleMesh coarse_rest; ///< coarse mesh at rest, in the frame of the modes
   Eigen::VectorXi space_of_rest;    ///< coarse vertex in space of each of its vertices
   int n_space = 0;                  ///< coarse vertices in space
   Eigen::VectorXi triangle;         ///< (n) coarse triangle of each fine vertex
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> weights; ///< (n,3) barycentric
-  meshes::Chi chi;                                                   ///< (n,6) [m]
+  CellModes modes;                                                   ///< of each vertex [m]
 };
 
 /// @tparam dim 2: in-plane scenes carry two components; 3: cloth in space
@@ -113,6 +115,7 @@ private:
   PositionsOf<dim> gathered(PositionsOf<dim> coarse_current) const;
   void fill_records(PositionsOf<dim> coarse_current) const;
   void fill_fitted_records(const typename CoarseFrames<dim>::Values &values) const;
+  void add_slip(PositionsOf<dim> coarse_current) const;
   template <int terms, int modes>
   void run(Scalar *fine_current) const;
   template <int terms>
@@ -133,6 +136,7 @@ private:
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< of placed vertices: positions by rest vertex
   meshes::FittedResponse fitted;           ///< where the options take fitted modes
-  mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
+  std::vector<Eigen::Matrix<double, 2, 3>> slip; ///< d of each coarse vertex, where it is added [m]
+  mutable std::vector<Scalar> records;           ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization

@@ -7,6 +7,7 @@
 #include "python/arrays.h"
 #include "python/bracketed_cell.h"
 #include "verification/cell/assessed_cell.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/cell/cell_summary.h"
 
 #include <mpi.h>
@@ -89,6 +90,7 @@ verification::AssessedCell assessed(const UnitCell &cell, const Choices &choices
   if (verification::too_dear_second_order(cell, options).empty())
     options.second_order = meshes::laws_with(&meshes::LawProperties::has_second_order);
   verification::AssessedCell result = verification::assess(cell, options, MPI_COMM_SELF);
+  result.edges                      = verification::affordable_edges(cell, choices.order);
   if (!choices.bars)
     return result;
   verification::BracketOptions bracket;
@@ -115,6 +117,7 @@ BracketedCell homogenized(const UnitCell &cell, const Choices &choices,
       warn("FAIL " + check.claim + ": found " + std::to_string(check.value) + "; expected " +
            check.limit);
   BracketedCell result{verification::homogenized_cell(cell, found, provenance), {}, {}};
+  result.edges = found.edges->edges;
   if (found.bracket && found.bracket->bracket)
     result.stiffness_bracket = bracket_of(*found.bracket->bracket);
   else if (choices.bars)

@@ -4,21 +4,27 @@
 #include "python/light.h"
 
 #include "localization/garment/placed_garment.h"
-#include "localization/upsampler.h"
+#include "localization/given_method.h"
 #include "meshes/files/format_version.h"
 #include "python/arrays.h"
 #include "python/laid_garment.h"
 
+#include <pybind11/stl.h>
+
+#include <functional>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace homespun::python
 {
 namespace
 {
 using meshes::HomogenizedCell;
-using Upsampler = localization::Upsampler<3, float>;
-using Fine      = Upsampler::Fine;
+template <int dim, typename Scalar>
+using Upsampler = localization::Upsampler<dim, Scalar>;
 
 /// A sheet of cells and the coarse mesh over it: two triangles per cell.
 struct CellSheet
@@ -44,35 +50,80 @@ std::unique_ptr<CellSheet> make_sheet(const HomogenizedCell &cell, const int n1,
   return std::make_unique<CellSheet>(cell, n1, n2);
 }
 
-std::unique_ptr<Upsampler> make_upsampler(const HomogenizedCell &cell, const CellSheet &sheet,
-                                          const bool microscopic)
+/// In space, as what runs every frame; in the plane, in double precision, as studies compare.
+struct CellUpsampler
 {
-  localization::UpsamplerOptions options;
-  options.microscopic = microscopic;
-  return std::make_unique<Upsampler>(cell, sheet.coarse, sheet.fine, options);
+  localization::Method used;
+  const Upsampler<3, float> in_space;
+  const std::function<std::unique_ptr<Upsampler<2, double>>()> make_in_plane;
+  std::unique_ptr<Upsampler<2, double>> in_plane = {}; ///< once it is asked for
+};
+
+using Held = std::optional<std::vector<std::string>>;
+
+/// A method on a coarse cloth; what it cannot have there is a warning.
+localization::GivenMethod method_on(const HomogenizedCell &cell, const std::string &method,
+                                    const localization::GivenCloth &given)
+{
+  const auto found = on_given(localization::Method(method), cell, given);
+  if (!found.left_out.empty() && PyErr_WarnEx(PyExc_UserWarning, found.left_out.c_str(), 1) != 0)
+    throw py::error_already_set(); // warnings are errors
+  return found;
 }
 
-std::unique_ptr<Upsampler> make_garment_upsampler(const HomogenizedCell &cell,
-                                                  const LaidGarment &garment,
-                                                  const bool microscopic)
+std::unique_ptr<CellUpsampler> over_sheet(const HomogenizedCell &cell, const CellSheet &sheet,
+                                          const std::string &method, const Held &held,
+                                          const bool has_slip)
 {
-  localization::UpsamplerOptions options;
-  options.microscopic = microscopic;
-  return std::make_unique<Upsampler>(
-    localization::placed_garment(cell, garment.coarse, garment.fine, options));
+  localization::GivenCloth given;
+  if (held)
+    given.held = held->empty() ? std::vector<std::string>{"none"} : *held;
+  if (has_slip)
+    given.slip = localization::Slip::of_cloth;
+  const auto found = method_on(cell, method, given);
+  const py::gil_scoped_release others_run;
+  return std::unique_ptr<CellUpsampler>(new CellUpsampler{
+    found.used,
+    {cell, sheet.coarse, sheet.fine, found.options},
+    [&cell, &sheet, options = found.options]()
+    { return std::make_unique<Upsampler<2, double>>(cell, sheet.coarse, sheet.fine, options); }});
 }
 
-py::object upsampled(const Upsampler &upsampler, const py::object &positions, py::object out)
+std::unique_ptr<CellUpsampler> over_garment(const HomogenizedCell &cell, const LaidGarment &garment,
+                                            const std::string &method)
+{
+  const auto found  = method_on(cell, method, {false});
+  const auto placed = [&cell, &garment, options = found.options]()
+  { return placed_garment(cell, garment.coarse, garment.fine, options); };
+  const py::gil_scoped_release others_run;
+  return std::unique_ptr<CellUpsampler>(
+    new CellUpsampler{found.used, Upsampler<3, float>(placed()),
+                      [placed]() { return std::make_unique<Upsampler<2, double>>(placed()); }});
+}
+
+template <int dim, typename Scalar>
+py::object upsampled(const Upsampler<dim, Scalar> &upsampler, const py::object &positions,
+                     py::object out)
 {
   if (out.is_none())
-    out = py::array_t<float>({static_cast<py::ssize_t>(upsampler.n_fine()), py::ssize_t(3)});
-  const Taken<localization::Positions<3>> coarse(positions, "positions");
-  const auto fine = room_in<Fine>(out, "out");
+    out = py::array_t<Scalar>({static_cast<py::ssize_t>(upsampler.n_fine()), py::ssize_t(dim)});
+  const Taken<localization::Positions<dim>> coarse(positions, "positions");
+  const auto fine = room_in<typename Upsampler<dim, Scalar>::Fine>(out, "out");
   {
     const py::gil_scoped_release others_run;
     upsampler.upsample(*coarse, fine);
   }
   return out;
+}
+
+py::object upsample(CellUpsampler &upsampler, const py::object &positions, const py::object &out)
+{
+  const py::array given = py::array::ensure(positions);
+  if (!given || given.ndim() != 2 || given.shape(1) != 2)
+    return upsampled(upsampler.in_space, positions, out);
+  if (!upsampler.in_plane)
+    upsampler.in_plane = upsampler.make_in_plane();
+  return upsampled(*upsampler.in_plane, positions, out);
 }
 
 void declare_sheet(py::module_ &module)
@@ -120,6 +171,42 @@ void declare_sheet(py::module_ &module)
            return text.str();
          });
 }
+
+void declare_upsampler(py::module_ &module)
+{
+  py::class_<CellUpsampler>(module, "Upsampler",
+                            "Fine positions from coarse positions: what runs every frame. One "
+                            "thread at a time.")
+    .def(py::init(&over_sheet), py::arg("cell"), py::arg("sheet"), py::kw_only(),
+         py::arg("method") = "localized", py::arg("held") = py::none(), py::arg("has_slip") = false,
+         py::keep_alive<1, 2>(), py::keep_alive<1, 3>(),
+         "method: what up-sampling adds to the coarse motion, `affine`, `localized` (the paper's) "
+         "or `full`, or terms as in `localized+modes`. held: edges of the sheet that are held, of "
+         "left, right, bottom, top, for the term edges. has_slip: of a coarse cloth that moves by "
+         "that term. What a method cannot have here is left out with a warning.")
+    .def(py::init(&over_garment), py::arg("cell"), py::arg("garment"), py::kw_only(),
+         py::arg("method") = "localized", py::keep_alive<1, 2>(), py::keep_alive<1, 3>(),
+         "garment: a Garment of the same cell.")
+    .def_property_readonly(
+      "n_fine", [](const CellUpsampler &of) { return of.in_space.n_fine(); },
+      "Number of fine vertices.")
+    .def_property_readonly(
+      "n_coarse", [](const CellUpsampler &of) { return of.in_space.n_coarse(); },
+      "Number of coarse vertices.")
+    .def_property_readonly(
+      "terms", [](const CellUpsampler &of) { return of.used.term_names(); },
+      "Terms of the method that are used here.")
+    .def("upsample", &upsample, py::arg("positions"), py::arg("out") = py::none(),
+         "Fine positions (n_fine, 3) float32 of the coarse positions (n_coarse, 3) float64 [m]; in "
+         "the plane, of (n_coarse, 2), (n_fine, 2) float64, as `homespun strain` compares them. "
+         "Neither is copied; with `out` nothing is allocated.")
+    .def("__repr__",
+         [](const CellUpsampler &of)
+         {
+           return "<homespun.Upsampler of " + std::to_string(of.in_space.n_coarse()) +
+                  " coarse vertices to " + std::to_string(of.in_space.n_fine()) + " fine>";
+         });
+}
 } // namespace
 
 PYBIND11_MODULE(_light, module)
@@ -148,25 +235,6 @@ PYBIND11_MODULE(_light, module)
   declare_sheet(module);
   declare_garment(module);
   declare_cloth(module);
-  py::class_<Upsampler>(module, "Upsampler",
-                        "Fine positions from coarse positions (paper Eqs. 9-12): what runs every "
-                        "frame. One thread at a time.")
-    .def(py::init(&make_upsampler), py::arg("cell"), py::arg("sheet"),
-         py::arg("microscopic") = true, py::call_guard<py::gil_scoped_release>(),
-         "microscopic=False interpolates the coarse motion alone.")
-    .def(py::init(&make_garment_upsampler), py::arg("cell"), py::arg("sheet"),
-         py::arg("microscopic") = true, py::call_guard<py::gil_scoped_release>(),
-         "sheet: a Garment of the same cell.")
-    .def_property_readonly("n_fine", &Upsampler::n_fine, "Number of fine vertices.")
-    .def_property_readonly("n_coarse", &Upsampler::n_coarse, "Number of coarse vertices.")
-    .def("upsample", &upsampled, py::arg("positions"), py::arg("out") = py::none(),
-         "Fine positions (n_fine, 3) float32 of the coarse positions (n_coarse, 3) float64 [m]. "
-         "Neither is copied; with `out` nothing is allocated.")
-    .def("__repr__",
-         [](const Upsampler &upsampler)
-         {
-           return "<homespun.Upsampler of " + std::to_string(upsampler.n_coarse()) +
-                  " coarse vertices to " + std::to_string(upsampler.n_fine()) + " fine>";
-         });
+  declare_upsampler(module);
 }
 } // namespace homespun::python

@@ -23,14 +23,8 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
          << " cell sides at seams; expected 0 to " << meshes::seam_reach;
     faults.push_back(text.str());
   }
-  if (!options.second_order.empty() || options.fitted != nullptr)
-    faults.push_back("up-sampling: " +
-                     (options.second_order.empty()
-                        ? std::string("fitted modes")
-                        : "quadratic modes of the law " + options.second_order) +
-                     " are asked for; of a garment, whose modes turn with the grain and fade at "
-                     "seams, those of first order are all there is so far: leave second_order "
-                     "and fitted empty");
+  for (const std::string &fault : mode_faults(options))
+    faults.push_back(fault);
   if (options.edges != nullptr)
     faults.emplace_back("up-sampling: modes of edges are asked for of a garment; its outlines and "
                         "seams are no lattice lines and have none: leave edges empty");

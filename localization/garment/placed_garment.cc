@@ -12,25 +12,6 @@ namespace homespun::localization
 {
 namespace
 {
-/// chi of a cell that is turned against the rest frame: w = Q w_cell(Q^T E Q).
-Eigen::Matrix<double, 6, 6> turned_chi(const Eigen::Matrix2d &Q)
-{
-  Eigen::Matrix<double, 6, 6> map = Eigen::Matrix<double, 6, 6>::Zero(); // chi row times map
-  for (int b = 0; b < 3; ++b)
-  {
-    Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
-    if (b < 2)
-      strain(b, b) = 1.;
-    else
-      strain(0, 1) = strain(1, 0) = 0.5;
-    const Eigen::Matrix2d in_cell = Q.transpose() * strain * Q;
-    const Eigen::Vector3d voigt(in_cell(0, 0), in_cell(1, 1), 2. * in_cell(0, 1));
-    for (int a = 0; a < 3; ++a)
-      map.block<2, 2>(2 * a, 2 * b) = voigt(a) * Q.transpose();
-  }
-  return map;
-}
-
 /// Grows from 0 at 0 to 1 at 1, with slope zero at both.
 double smooth_step(const double s)
 {
@@ -38,32 +19,42 @@ double smooth_step(const double s)
   return t * t * (3. - 2. * t);
 }
 
-/// chi at the fine vertices in the rest frames of their panels, column 2 a + c [m].
-/// @param chi of the cell (n_cell,6) [m]
-/// @param fade distance from a seam over which chi grows from zero to its full size [m]
-meshes::Chi chi_of_garment(const meshes::HomogenizedCell &cell, const meshes::Chi &chi,
+/// Modes at the fine vertices.
+/// @param of_cell its modes
+/// @param fade distance from a seam over which they grow from zero to their full size [m]
+CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const CellModes &of_cell,
                            const meshes::FineCloth &fine, const double fade)
 {
-  std::vector<Eigen::Matrix<double, 6, 6>> turned; // chi row times map, of each panel
-  for (const meshes::Grain &grain : fine.grains)
-    turned.push_back(turned_chi(grain.rotation()));
-  meshes::Chi result(fine.n_vertices(), 6);
+  CellModes result(fine.n_vertices(), of_cell.cols());
   for (int v = 0; v < fine.n_vertices(); ++v)
   {
-    Eigen::Matrix<double, 1, 6> here = Eigen::Matrix<double, 1, 6>::Zero();
+    auto here = result.row(v);
     if (fine.cell_vertex(v) >= 0)
-      here = chi.row(fine.cell_vertex(v));
+      here = of_cell.row(fine.cell_vertex(v));
     else
+    {
+      here.setZero();
       for (int k = 0; k < 3; ++k)
-        here += fine.cell_weights(v, k) * chi.row(cell.mesh.triangles(fine.cell_triangle(v), k));
-    const auto panel = static_cast<std::size_t>(fine.panel(v));
-    if (fine.grains[panel].angle != 0.)
-      here = (here * turned[panel]).eval();
+        here +=
+          fine.cell_weights(v, k) * of_cell.row(cell.mesh.triangles(fine.cell_triangle(v), k));
+    }
     if (const double distance = fine.seam_distance(v); distance < fade)
       here *= smooth_step(distance / fade);
-    result.row(v) = here;
   }
   return result;
+}
+
+/// The panels at rest, each turned into the frame of its cells.
+meshes::TriangleMesh in_frames_of_cells(const meshes::ClothMesh &coarse,
+                                        const std::vector<meshes::Grain> &grains)
+{
+  meshes::TriangleMesh rest   = coarse.rest;
+  const Eigen::VectorXi panel = meshes::panels_of(coarse).of_vertex;
+  for (int v = 0; v < rest.n_vertices(); ++v)
+    if (const int p = panel(v); p >= 0 && grains[static_cast<std::size_t>(p)].angle != 0.)
+      rest.vertices.row(v) =
+        (rest.vertices.row(v) * grains[static_cast<std::size_t>(p)].rotation()).eval();
+  return rest;
 }
 } // namespace
 
@@ -74,15 +65,13 @@ PlacedVertices placed_garment(const meshes::HomogenizedCell &cell, const meshes:
     throw meshes::BadInput(faults);
   PlacedVertices placed;
   placed.options       = options;
-  placed.coarse_rest   = coarse.rest;
+  placed.coarse_rest   = in_frames_of_cells(coarse, fine.grains);
   placed.space_of_rest = meshes::space_of_rest(coarse);
   placed.n_space       = coarse.n_vertices();
   placed.triangle      = fine.coarse_triangle;
   placed.weights       = fine.coarse_weights;
-  placed.chi           = options.microscopic
-                           ? chi_of_garment(cell, anchored(cell, options.anchor), fine,
-                                            options.seam_fade * std::sqrt(cell.lattice.area()))
-                           : meshes::Chi::Zero(fine.n_vertices(), 6);
+  placed.modes         = modes_of_garment(cell, cell_modes(cell, options), fine,
+                                          options.seam_fade * std::sqrt(cell.lattice.area()));
   return placed;
 }
 } // namespace homespun::localization

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A garment, as an Upsampler takes it: vertices in space are gathered to the rest vertices of the
 // panels, so that each panel has strains in its own rest frame and averages over its own triangles
-// only. chi is that of the cell, interpolated where an outline cuts a cell; it turns with the grain
-// of the panel, and fades to zero at its seams (not at free edges): there both sides lie on the
-// same coarse edge, and the seam stays closed.
+// only: the cell's own, turned by the grain, so that strains are those of the cell and its modes
+// are taken as they are. Where an outline cuts a cell they are interpolated. They fade to zero at
+// seams (not at free edges): there both sides lie on the same coarse edge, and the seam stays
+// closed.
 #pragma once
 
 #include "localization/upsampler.h"
@@ -13,10 +14,11 @@
 namespace homespun::localization
 {
 /// Places the fine cloth of a garment on its coarse cloth.
-/// @param cell homogenized cell whose chi is superposed; its stiffness is not used
+/// @param cell homogenized cell whose modes are superposed; its stiffness is not used
 /// @param coarse panels at rest and how they are sewn; its positions are not used
 /// @param fine made by meshes::fine_cloth() from that cell and that coarse cloth
-/// @throws BadInput where the coarse cloth has faults, or the three do not belong together
+/// @throws BadInput where the coarse cloth has faults, the three do not belong together, or edges
+///   are asked for
 PlacedVertices placed_garment(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &coarse,
                               const meshes::FineCloth &fine, const UpsamplerOptions &options = {});
 } // namespace homespun::localization

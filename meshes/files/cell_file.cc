@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/cell_file.h"
 
-#include "meshes/files/cell_edges_file.h"
+#include "meshes/files/cell_terms_file.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
-#include "meshes/plain/law.h"
 #include "meshes/plain/symmetric_eigen.h"
-
 
 #include <algorithm>
 #include <array>
@@ -85,49 +83,9 @@ std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::strin
   return faults;
 }
 
-/// Columns 2 k + c of a row in memory, stored as (vertex, component, mode).
-constexpr int n_modes = 6;
-
-void write_second_order(const std::string &law, const SecondOrder &second, Hdf5Writer &file)
-{
-  const std::string energy = "/W3/" + law, modes = "/chi_quadratic/" + law;
-  file.write(energy, {10}, second.energy.derivatives.data(), "N/m");
-  file.attribute(energy, "convention",
-                 "third derivatives of the energy per area by E = U - I, engineering shear; 111 "
-                 "112 113 122 123 133 222 223 233 333, where 1, 2, 3 stand for 11, 22, 12");
-  const auto n = static_cast<unsigned long long>(second.chi.rows());
-  std::vector<double> chi(2 * n_modes * static_cast<std::size_t>(n));
-  for (Eigen::Index v = 0; v < second.chi.rows(); ++v)
-    for (int k = 0; k < n_modes; ++k)
-      for (int c = 0; c < 2; ++c)
-        chi[static_cast<std::size_t>(2 * n_modes * v + n_modes * c + k)] = second.chi(v, 2 * k + c);
-  file.write(modes, {n, 2, n_modes}, chi.data(), "m");
-  file.attribute(modes, "convention",
-                 "w = ... - E11^2/2 chi_1 - E22^2/2 chi_2 - gamma12^2/2 chi_3 - E11 E22 chi_4 - "
-                 "E11 gamma12 chi_5 - E22 gamma12 chi_6, E = U - I, engineering shear; axes: "
-                 "vertex, component, mode");
-}
-
-SecondOrder read_second_order(const Hdf5Reader &file, const std::string &law,
-                              const unsigned long long n)
-{
-  const std::vector<double> energy = file.numbers("/W3/" + law, {10}),
-                            chi    = file.numbers("/chi_quadratic/" + law, {n, 2, n_modes});
-  SecondOrder second;
-  second.energy.derivatives = Eigen::Map<const Eigen::Matrix<double, 10, 1>>(energy.data());
-  second.chi.resize(static_cast<Eigen::Index>(n), 2 * n_modes);
-  for (Eigen::Index v = 0; v < second.chi.rows(); ++v)
-    for (int k = 0; k < n_modes; ++k)
-      for (int c = 0; c < 2; ++c)
-        second.chi(v, 2 * k + c) = chi[static_cast<std::size_t>(2 * n_modes * v + n_modes * c + k)];
-  return second;
-}
 } // namespace
 
-namespace
-{
-/// @param edges none where the pointer is null
-void write_all(const HomogenizedCell &cell, const CellEdges *const edges, const std::string &path)
+void write_cell(const HomogenizedCell &cell, const std::string &path)
 {
   const std::vector<std::string> faults = faults_of(cell, path);
   if (!faults.empty())
@@ -143,13 +101,7 @@ void write_all(const HomogenizedCell &cell, const CellEdges *const edges, const 
   file.write("/lattice", {2, 2}, lattice.data(), "m");
   if (cell.lattice.cuts_holes)
     file.attribute("/lattice", "cuts_holes", 1);
-  // Stored as (vertex, component, load); in memory a row is load-major.
-  std::vector<double> chi(6 * static_cast<std::size_t>(n));
-  for (Eigen::Index v = 0; v < cell.chi.rows(); ++v)
-    for (int a = 0; a < 3; ++a)
-      for (int c = 0; c < 2; ++c)
-        chi[static_cast<std::size_t>(6 * v + 3 * c + a)] = cell.chi(v, 2 * a + c);
-  file.write("/chi", {n, 2, 3}, chi.data(), "m");
+  file.write("/chi", {n, 2, 3}, by_component(cell.chi).data(), "m");
   file.attribute("/chi", "anchor", cell.anchor);
   file.attribute(
     "/chi", "convention",
@@ -169,25 +121,11 @@ void write_all(const HomogenizedCell &cell, const CellEdges *const edges, const 
                    "w3 = y.K.y/2 + K11 w_1 + K22 w_2 + 2 K12 w_3, kappa = +grad grad w3; axes: "
                    "vertex, macro curvature (11, 22, 12)");
   }
-  for (const auto &[law, second] : cell.second_order)
-    write_second_order(law, second, file);
-  if (edges != nullptr)
-    write_edges(*edges, cell.mesh.n_vertices(), file);
+  write_terms(cell, file);
   file.attribute("/", "provenance", cell.provenance);
   if (!cell.place_of_cut.empty())
     file.attribute("/", "place_of_cut", cell.place_of_cut);
   file.finish();
-}
-} // namespace
-
-void write_cell(const HomogenizedCell &cell, const std::string &path)
-{
-  write_all(cell, nullptr, path);
-}
-
-void write_cell(const HomogenizedCell &cell, const CellEdges &edges, const std::string &path)
-{
-  write_all(cell, &edges, path);
 }
 
 HomogenizedCell read_cell(const std::string &path)
@@ -200,22 +138,18 @@ HomogenizedCell read_cell(const std::string &path)
   const auto rows = static_cast<Eigen::Index>(n), triangles = static_cast<Eigen::Index>(m);
   const std::vector<double> vertices = file.numbers("/vertices", {n, 2}),
                             lattice  = file.numbers("/lattice", {2, 2}),
-                            chi = file.numbers("/chi", {n, 2, 3}), C = file.numbers("/C", {3, 3});
-  const std::vector<int> corners  = file.integers("/triangles", {m, 3}),
-                         material = file.integers("/material", {m});
-  cell.mesh.vertices              = Eigen::Map<const Points>(vertices.data(), rows, 2);
-  cell.mesh.triangles             = Eigen::Map<const Triangles>(corners.data(), triangles, 3);
-  cell.mesh.material              = Eigen::Map<const Eigen::VectorXi>(material.data(), triangles);
+                            C        = file.numbers("/C", {3, 3});
+  const std::vector<int> corners     = file.integers("/triangles", {m, 3}),
+                         material    = file.integers("/material", {m});
+  cell.mesh.vertices                 = Eigen::Map<const Points>(vertices.data(), rows, 2);
+  cell.mesh.triangles                = Eigen::Map<const Triangles>(corners.data(), triangles, 3);
+  cell.mesh.material = Eigen::Map<const Eigen::VectorXi>(material.data(), triangles);
   cell.lattice.vectors =
     Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(lattice.data());
   cell.lattice.cuts_holes = file.integer_attribute("/lattice", "cuts_holes").value_or(0) != 0;
   cell.stiffness     = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(C.data());
   cell.areal_density = file.numbers("/areal_density", {1})[0];
-  cell.chi.resize(rows, 6);
-  for (Eigen::Index v = 0; v < rows; ++v)
-    for (int a = 0; a < 3; ++a)
-      for (int c = 0; c < 2; ++c)
-        cell.chi(v, 2 * a + c) = chi[static_cast<std::size_t>(6 * v + 3 * c + a)];
+  cell.chi           = by_mode<Chi>(file.numbers("/chi", {n, 2, 3}));
   if (file.has("/D"))
   {
     const std::vector<double> D          = file.numbers("/D", {3, 3}),
@@ -223,10 +157,7 @@ HomogenizedCell read_cell(const std::string &path)
     cell.bending = {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(D.data()),
                     Eigen::Map<const Deflection>(deflection.data(), rows, 3)};
   }
-  for (const Law of : laws_with(&LawProperties::has_second_order))
-    if (const std::string law = name_of(of);
-        file.has(std::string("/W3/") + law) || file.has(std::string("/chi_quadratic/") + law))
-      cell.second_order[law] = read_second_order(file, law, n);
+  read_terms(file, path, cell);
   const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");
   if (!anchor)
     throw BadInput(path +

@@ -5,6 +5,7 @@
 //   /C (3,3) [N/m]        /areal_density [kg/m^2]            attribute `provenance` of the file
 //   attribute `format_version` of the file (format_version.h)
 //   attribute `place_of_cut` of the file, where the cell is not cut from the cloth as it is drawn
+// and what up-sampling takes beside chi, where it was made (cell_terms_file.h).
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"

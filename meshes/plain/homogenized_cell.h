@@ -3,7 +3,9 @@
 // effective stiffness and its mass. Plain data; cell_file.h stores it.
 #pragma once
 
+#include "meshes/plain/cell_edges.h"
 #include "meshes/plain/cubic_form.h"
+#include "meshes/plain/fitted_modes.h"
 #include "meshes/plain/lattice.h"
 #include "meshes/plain/triangle_mesh.h"
 
@@ -81,5 +83,8 @@ struct HomogenizedCell
   std::string place_of_cut; ///< in words, where the cell is not cut from the cloth as it is drawn
   /// By the law of its phases, `biot` or `green`; those that were not computed are absent.
   std::map<std::string, SecondOrder> second_order;
+  std::optional<CellEdges> edges; ///< what it does at edges on lattice lines; nothing: not known
+  /// By a law of yarns, which has no second order: modes that `homespun strain` fitted.
+  std::map<std::string, FittedModes> fitted;
 };
 } // namespace homespun::meshes

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import os
-from typing import overload
+from collections.abc import Sequence
+from typing import Any, overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -138,14 +139,25 @@ class Cloth:
     def stored_energy(self) -> float: ...
 
 class Upsampler:
-    def __init__(self, cell: Cell, sheet: Sheet | Garment, microscopic: bool = True) -> None: ...
+    @overload
+    def __init__(
+        self,
+        cell: Cell,
+        sheet: Sheet,
+        *,
+        method: str = "localized",
+        held: Sequence[str] | None = None,
+        has_slip: bool = False,
+    ) -> None: ...
+    @overload
+    def __init__(self, cell: Cell, garment: Garment, *, method: str = "localized") -> None: ...
     @property
     def n_fine(self) -> int: ...
     @property
     def n_coarse(self) -> int: ...
-    def upsample(
-        self, positions: ArrayLike, out: NDArray[numpy.float32] | None = None
-    ) -> NDArray[numpy.float32]: ...
+    @property
+    def terms(self) -> list[str]: ...
+    def upsample(self, positions: ArrayLike, out: NDArray[Any] | None = None) -> NDArray[Any]: ...
 
 def read_positions(file: str | os.PathLike[str]) -> NDArray[numpy.float64]: ...
 def fault_of_format(path: str, found: int | str) -> str: ...

@@ -240,7 +240,9 @@ void add_upsampling(const std::string &type)
   add("second_order", of_second_order(), 24 + 8 * dim);
   add("fitted", {}, 36 + 8 * dim, {1, false, true});
   add("edges", {}, 12 + 8 * dim, {1, true});
-  // All that `full` takes: six-node triangles are evaluated on quads of half a cell.
+  // All that `full` adds to a coarse cloth of three-node triangles.
+  add("second_order_and_edges", of_second_order(), 24 + 8 * dim, {1, true});
+  // All that it takes on its own: six-node triangles are evaluated on quads of half a cell.
   add("full", of_second_order(), 24 + 8 * dim, {2, true});
   add("full_general", general_of_second_order(), 24 + 8 * dim, {2, true});
   // In the place of the quadratic modes 6 coefficients, 3 strains of free edges and their 18 modes;

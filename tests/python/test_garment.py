@@ -59,7 +59,7 @@ class Garments(unittest.TestCase):
 
     def test_an_obj_of_a_sheet_is_up_sampled_as_the_sheet(self):
         of_sheet = homespun.Upsampler(self.cell, self.sheet).upsample(self.moved)
-        affine = homespun.Upsampler(self.cell, self.sheet, microscopic=False).upsample(self.moved)
+        affine = homespun.Upsampler(self.cell, self.sheet, method="affine").upsample(self.moved)
         self.assertGreater(abs(of_sheet - affine).max(), 1e-2 * 0.03 * SIDE)  # chi is seen
         in_millimetres = self.folder / "mm.obj"
         write_obj(in_millimetres, 1e3 * self.flat, self.sheet.coarse_triangles)

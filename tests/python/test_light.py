@@ -166,7 +166,7 @@ class Upsampling(WithCell):
     def test_stretch_adds_chi(self):
         strain = 0.01
         fine = self.upsampler.upsample(self.stretched(strain))
-        affine = homespun.Upsampler(self.cell, self.sheet, microscopic=False).upsample(
+        affine = homespun.Upsampler(self.cell, self.sheet, method="affine").upsample(
             self.stretched(strain))
         fluctuation = (fine - affine)[:, 0]
         # w = −E11 chi_11, chi a tent of the soft stripe's slope, 1 − C11/D11, over half a cell.
@@ -221,7 +221,7 @@ class Upsampling(WithCell):
         good = self.positions
         out = numpy.zeros((self.upsampler.n_fine, 3), dtype=numpy.float32)
         upsample = self.upsampler.upsample
-        self.refused(lambda: upsample(good[:, :2].copy()), "positions", "(n, 3)", f"({len(good)}, 2)")
+        self.refused(lambda: upsample(good[:, :1].copy()), "positions", "(n, 3)", f"({len(good)}, 1)")
         self.refused(lambda: upsample(good[:-1]), f"have {len(good) - 1} rows; expected {len(good)}")
         self.refused(lambda: upsample(good.astype(str)), "positions: found a ndarray of <U",
                      "expected numbers of the shape (n, 3)")

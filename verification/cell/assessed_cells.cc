@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/assessed_cells.h"
 
-#include "meshes/files/cell_edges_file.h"
 #include "meshes/files/cell_file.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/study_inputs.h"
@@ -148,18 +147,18 @@ bool AssessedCells::read(const UnitCell &cell, const std::string &folder,
   its.folder        = folder;
   try
   {
-    const nlohmann::json json                 = read_json(file);
-    const meshes::HomogenizedCell homogenized = meshes::read_cell(folder + "/cell.h5");
-    its.result.stiffness                      = homogenized.stiffness;
-    its.result.chi                            = homogenized.chi;
-    its.result.anchor                         = homogenized.anchor;
-    its.result.second_order                   = homogenized.second_order;
-    its.result.stiffness_by_flux              = matrix_of(json.at("C_by_mean_stress"));
-    its.result.voigt                          = matrix_of(json.at("voigt"));
-    its.result.reuss                          = matrix_of(json.at("reuss"));
+    const nlohmann::json json           = read_json(file);
+    meshes::HomogenizedCell homogenized = meshes::read_cell(folder + "/cell.h5");
+    its.result.stiffness                = homogenized.stiffness;
+    its.result.chi                      = homogenized.chi;
+    its.result.anchor                   = homogenized.anchor;
+    its.result.second_order             = homogenized.second_order;
+    its.result.stiffness_by_flux        = matrix_of(json.at("C_by_mean_stress"));
+    its.result.voigt                    = matrix_of(json.at("voigt"));
+    its.result.reuss                    = matrix_of(json.at("reuss"));
     // Edges that are not there were too dear for the file, or impossible: of() finds out.
-    if (auto edges = meshes::read_cell_edges(folder + "/cell.h5"))
-      its.edges = KnownEdges{std::move(edges), {}, 0.};
+    if (homogenized.edges)
+      its.edges = KnownEdges{std::move(homogenized.edges), {}, 0.};
     its.checks = checks_in(json.at("checks"));
   }
   catch (const nlohmann::json::exception &damage)

@@ -2,7 +2,6 @@
 #include "verification/cell/cell_files.h"
 
 #include "homogenization/lint/facets.h"
-#include "meshes/files/cell_edges_file.h"
 #include "meshes/files/cell_file.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/files/write_whole.h"
@@ -373,13 +372,11 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
     copy_cell_results(assessed.folder, folder);
     return;
   }
-  const meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
+  meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
   const KnownEdges known =
     assessed.edges ? *assessed.edges : affordable_edges(cell, assessed.options.order);
-  if (known.edges)
-    meshes::write_cell(homogenized, *known.edges, folder + "/cell.h5");
-  else
-    meshes::write_cell(homogenized, folder + "/cell.h5");
+  homogenized.edges = known.edges;
+  meshes::write_cell(homogenized, folder + "/cell.h5");
   write_vtu(cell, assessed, folder + "/characteristic-displacements.vtu");
   write_json(folder + "/cell.json", cell_json(cell));
   if (assessed.bending && assessed.bending->bracket)

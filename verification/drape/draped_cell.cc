@@ -63,11 +63,11 @@ std::string why_not(const Term term, const Scene &scene, const std::optional<Law
 {
   if (term == Term::micro)
     return {};
-  if (!scene.is_sheet())
+  if (!scene.is_sheet() && term != Term::modes)
     return "` is a garment, " +
            std::string(term == Term::edges ? "whose outlines and seams are no lattice lines"
                        : term == Term::p2  ? "whose panels six-node triangles do not fill"
-                                           : "of which up-sampling has no second order") +
+                                           : "whose coarse cloth has no cubic energy") +
            "; expected a sheet: leave the term out";
   if ((term == Term::cubic || term == Term::modes) && law && !properties_of(*law).has_second_order)
     return "` has a cloth of the law " + name_of(*law) +

@@ -27,7 +27,7 @@ Method CoarseModel::used(const Method &method, const Law law, const Load &load,
                          const meshes::Sheet &sheet, const CellModel &cell,
                          const std::optional<Quads> &quads)
 {
-  Method left = method.under(law, load);
+  Method left = under(method, law, load);
   if (!CoarseSpace::fits(sheet, element_of(left), quads))
     left = left.without(Term::p2);
   return cell.edges == nullptr ? left.without(Term::edges) : left;

@@ -30,16 +30,10 @@ CoarseParts<dim>::CoarseParts(const CellModel &cell, const meshes::Sheet &sheet,
                               const std::optional<Quads> &quads)
     : space(sheet, element_of(method), quads)
     , cubic(cubic_of(cell.cell, method, law))
-    , options(method.options(law))
+    , options(options_of(method, law, cell, kinds))
 {
   if (method.has(Term::edges))
     edges.emplace(cell, sheet, space, kinds, law);
-  if (!method.has(Term::micro))
-    return;
-  if (method.has_fitted_modes(law))
-    options.fitted = cell.fitted;
-  if (edges)
-    edges->give_edges(options);
 }
 
 template struct CoarseParts<2>;

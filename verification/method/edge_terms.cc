@@ -225,13 +225,6 @@ bool EdgeTerms<dim>::has_bulk_forces() const
   return std::max(edges.bulk[0].norm(), edges.bulk[1].norm()) > 1e-9 * size;
 }
 
-template <int dim>
-void EdgeTerms<dim>::give_edges(localization::UpsamplerOptions &options) const
-{
-  options.edges      = &edges;
-  options.edge_kinds = kinds;
-}
-
 std::string sentence_of_edges(const EdgeKinds &kinds)
 {
   std::array<std::string, 3> lists;

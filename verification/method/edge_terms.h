@@ -8,6 +8,7 @@
 #pragma once
 
 #include "localization/coarse_frames.h"
+#include "localization/method.h"
 #include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
@@ -23,19 +24,8 @@
 
 namespace homespun::verification
 {
-/// What is known of a cell, as far as a method asks for it.
-struct CellModel
-{
-  const meshes::HomogenizedCell &cell;
-  const meshes::CellEdges *edges = nullptr; ///< what it does at edges
-  /// Modes under a law; slip and layers of clamped edges follow their effective strain, layers of
-  /// free ones meshes::strain_of_free_edges(), tension and forces within the strain itself. Null:
-  /// all do.
-  const meshes::FittedModes *fitted = nullptr;
-};
-
-/// What each of the four edges of a sheet is.
-using EdgeKinds = std::array<localization::EdgeKind, meshes::CellEdges::n_sides>;
+using localization::CellModel;
+using localization::EdgeKinds;
 
 /// Edges that a load holds are clamped, the others free.
 /// @throws BadInput where the load is one of an infinite cloth
@@ -76,9 +66,6 @@ public:
   {
     return segments;
   }
-
-  /// Gives up-sampling the edges of the cell, with what each is.
-  void give_edges(localization::UpsamplerOptions &options) const;
 
   const Law law;
 

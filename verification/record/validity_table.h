@@ -17,9 +17,9 @@ namespace homespun::verification
 /// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
 /// meets the limit. `elliptic_up_to` is the strain of the load from which on a triangle of
 /// reference or coarse cloth is not elliptic, the same for every measure and limit; empty where all
-/// levels that were reached are. Rows are of `localized`, which up-samples whatever moved the
-/// coarse cloth, of the method that the study speaks of (method/method.h), and of its `base`, which
-/// keeps the limit without up-sampling (gains.csv says which method that is at each level).
+/// levels that were reached are. Rows are of `localized`, of the method that the study speaks of
+/// (method/method.h), and of its `base`, which keeps the limit without up-sampling (gains.csv says
+/// which method that is at each level).
 struct ValidityRow
 {
   static constexpr const char *file   = "validity.csv";

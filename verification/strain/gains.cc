@@ -120,14 +120,14 @@ const StrainRow *base_of(const std::vector<StrainRow> &rows, const StrainRow &of
 {
   const Law law = law_of(of.reference);
   const Load load(of.load);
-  const Method method   = Method(of.method).under(law, load),
-               coarse   = method.without(Term::micro).under(law, load),
-               p2       = Method("affine+p2").under(law, load);
+  const Method method   = under(Method(of.method), law, load),
+               coarse   = under(method.without(Term::micro), law, load),
+               p2       = under(Method("affine+p2"), law, load);
   const StrainRow *base = nullptr;
   for (const StrainRow &row : rows)
     if (is_reached_in(row, of) && row.strain == of.strain && std::isfinite(row.mean))
     {
-      const Method its = Method(row.method).under(law, load);
+      const Method its = under(Method(row.method), law, load);
       if ((its.has_terms_of(coarse) || (method.has(Term::p2) && its.has_terms_of(p2))) &&
           (base == nullptr || row.mean < base->mean))
         base = &row;

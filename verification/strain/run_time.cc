@@ -229,7 +229,7 @@ private:
     const std::string way = method.name + "-" + std::to_string(sheet.n1);
     const bool is_plain =
       Method("localized").has_terms_of(method) || Method("affine").has_terms_of(method);
-    if (has(way) || is_plain || !asked.under(options.law, load).has_terms_of(method) ||
+    if (has(way) || is_plain || !under(asked, options.law, load).has_terms_of(method) ||
         (method.has_fitted_modes(options.law) && options.fitted == nullptr))
       return;
     if (method.has_fitted_modes(options.law))

@@ -209,7 +209,7 @@ void write_notes_of_methods(const StrainLevel &level, const std::vector<Upsample
 {
   for (const UpsampledMethod &of : all)
   {
-    const Method method = Method(of.name).under(level.law, methods.load);
+    const Method method = under(Method(of.name), level.law, methods.load);
     if (!CoarseSpace::fits(methods.sheet, element_of(method)))
       output.write_note(level, "method " + of.name +
                                  ": its triangles are two cells wide, and the sheet has an odd "

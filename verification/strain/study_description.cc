@@ -68,7 +68,7 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
                  law == "linear" ? "linear theory has neither a cubic energy nor modes beside chi"
                                  : "under laws of yarns a cell has no cubic energy");
     const Method of_sheet = method.under(Law::linear);
-    if (const std::string less = of_sheet.beyond(of_sheet.under(Law::linear, Load("periodic-11")));
+    if (const std::string less = of_sheet.beyond(under(of_sheet, Law::linear, Load("periodic-11")));
         has_periodic(options) && !less.empty())
       left_out(less + " of the method " + name + " under periodic loads",
                "an infinite cloth has no edges, and the motion of its coarse cloth is given");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/study_modes.h"
 
+#include "meshes/files/cell_file.h"
 #include "meshes/plain/errors.h"
 #include "verification/method/method.h"
 #include "verification/method/mode_fit.h"
@@ -8,6 +9,19 @@
 
 namespace homespun::verification
 {
+namespace
+{
+void keep(const std::map<Law, meshes::FittedModes> &modes, const std::string &cell_file)
+{
+  if (modes.empty())
+    return;
+  meshes::HomogenizedCell cell = meshes::read_cell(cell_file);
+  for (const auto &[law, of_law] : modes)
+    cell.fitted[name_of(law)] = of_law;
+  meshes::write_cell(cell, cell_file);
+}
+} // namespace
+
 std::map<Law, meshes::FittedModes> modes_of_study(const StrainStudyOptions &options,
                                                   const homogenization::UnitCell &cell,
                                                   const meshes::HomogenizedCell &homogenized,
@@ -42,6 +56,7 @@ std::map<Law, meshes::FittedModes> modes_of_study(const StrainStudyOptions &opti
         output.write_note(level, "method " + name + ": " + failure.what());
       }
     }
+  keep(all, options.output + "/" + cell.name + "/cell.h5");
   return all;
 }
 } // namespace homespun::verification

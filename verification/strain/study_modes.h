@@ -13,7 +13,8 @@
 namespace homespun::verification
 {
 /// Fits modes under the laws of the references, over a box up to the largest strain of the study,
-/// where a method asks for them; and notes what they leave, or why there are none. First rank.
+/// where a method asks for them; notes what they leave, or why there are none; and adds them to the
+/// file of the cell, for whoever up-samples a motion of his own. First rank.
 /// @return by law
 std::map<Law, meshes::FittedModes> modes_of_study(const StrainStudyOptions &options,
                                                   const homogenization::UnitCell &cell,

@@ -2,6 +2,7 @@
 // homespun upsample: fine positions for the frames of another program's coarse simulation.
 #include "verification/upsample/upsample_command.h"
 
+#include "localization/method.h"
 #include "verification/command/study_arguments.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -23,7 +24,10 @@ void check_upsample_arguments(const UpsampleOptions &study)
 {
   ArgumentFaults faults;
   faults.check_names("--format", study.formats, {"vtu", "ply", "obj", "usda", "pc2"});
+  faults.check_names("--method", {study.method},
+                     [](const std::string &name) { return localization::Method(name); });
   faults.check_names("--up", {study.up}, {"y", "z"});
+  faults.check_names("--held", study.held, {"left", "right", "bottom", "top", "none"});
   if (study.origin.size() != 2 || !std::isfinite(study.origin[0]) ||
       !std::isfinite(study.origin[1]))
     faults.add("--origin: expected two numbers in metres, as in 0.1,0.2");
@@ -42,10 +46,27 @@ int run_upsample(UpsampleOptions study)
 {
   if (!is_root(MPI_COMM_WORLD))
     return exit_status::good;
+  study.method = localization::Method(study.method).name;
   if (study.output.empty())
     study.output = default_folder("upsample", stems({study.rest_file}));
   run_upsample_study(study);
   return exit_status::good;
+}
+
+/// What up-sampling adds to the coarse motion.
+void add_method(CLI::App &command, UpsampleOptions &study)
+{
+  command
+    .add_option("--method", study.method,
+                "What up-sampling adds to your coarse motion: affine, localized or full, or terms "
+                "as in localized+modes")
+    ->capture_default_str();
+  add_list(command, "--held", study.held,
+           "Edges of a sheet of whole cells that are held, for the term edges, comma-separated: "
+           "left, right, bottom, top, or none");
+  command.add_flag_callback(
+    "--slip", [&study]() { study.slip = localization::Slip::of_cloth; },
+    "Held edges of the coarse frames have slip already, as those of `drape` with the term edges");
 }
 } // namespace
 
@@ -85,6 +106,7 @@ void UpsampleCommand::add(CommandLine &line)
     "--accept-strain", study->accepts_strain,
     "Go on where the mean strain is above 50 %, the mean compression above 30 %, or "
     "a coarse triangle longer than a hundred cells, which mostly mean units that differ");
+  add_method(*command, *study);
   command->add_option("--up", study->up, "Axis that points up, y or z: said in .usda")
     ->capture_default_str();
   command->add_option("--validity", study->validity_file,
@@ -103,6 +125,13 @@ void UpsampleCommand::add(CommandLine &line)
     "left, seen from above. A sheet of whole cells, two triangles each, goes the fast way; cells "
     "are cut along the\n"
     "outlines of all else.\n\n"
+    "--method full adds second-order or fitted modes, as cell.h5 has them, and on a sheet of whole "
+    "cells boundary\n"
+    "layers at its edges, if you say with --held which are held. The terms p2 and cubic belong to "
+    "a coarse cloth, and\n"
+    "yours is given. Fitted modes of weaves are in the CELL/cell.h5 of `homespun strain`. What is "
+    "left out is said.\n"
+    "\n"
     "upsample.csv says of each frame, without a reference, where its error may come from: `strain` "
     "(against the\n"
     "range of validity of the cell, where it is known), `strain_change` across one cell, and "

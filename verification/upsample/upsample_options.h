@@ -2,6 +2,7 @@
 // What up-sampling the frames of another program is told.
 #pragma once
 
+#include "localization/options.h"
 #include "verification/record/earlier.h"
 
 #include <string>
@@ -21,8 +22,11 @@ struct UpsampleOptions
   double vt_unit      = 1.;    ///< metres per unit of vt [m]
   bool is_flat        = false; ///< the rest state is that of the positions, although there are vt
   bool accepts_strain = false; ///< what looks like another unit is none (unit_question.h)
-  std::string up      = "z";   ///< y or z: said in .usda
-  std::string validity_file;   ///< empty: beside the cell, if there is one
+  std::string method  = "localized"; ///< as localization::Method reads it
+  std::vector<std::string> held;     ///< edges of a sheet (localization/given_method.h)
+  localization::Slip slip = localization::Slip::added; ///< of clamped edges
+  std::string up          = "z";                       ///< y or z: said in .usda
+  std::string validity_file;                           ///< empty: beside the cell, if there is one
   double limit = 0.01; ///< of the error, as a part of the cell side: of the range of validity
   std::string output, command;
   Earlier earlier = Earlier::keep_work;

@@ -72,11 +72,17 @@ public:
         !question.empty() && !options.accepts_strain)
       throw meshes::BadInput(question);
     check_frames(frames, rest, CoarseIndicators(rest.cloth, cell_side), options);
-    valid = valid_strain(cell, options.cell_file, options.validity_file, options.limit);
     const meshes::Grain grain = {{options.origin[0], options.origin[1]},
                                  options.angle * M_PI / 180.};
-    fine                      = std::make_unique<UpsampledCloth>(cell, rest.cloth, grain);
-    indicators_of             = std::make_unique<CoarseIndicators>(fine->coarse, cell_side);
+    fine                      = std::make_unique<UpsampledCloth>(
+      cell, rest.cloth, grain, localization::Method(options.method),
+      localization::GivenCloth{true, options.held, options.slip});
+    if (fine->used.has(localization::Term::micro))
+      valid =
+        valid_strain(cell, options.cell_file, options.validity_file, options.limit, fine->used);
+    if (!fine->left_out.empty() && !options.quiet)
+      std::fprintf(stderr, "homespun: %s\n", fine->left_out.c_str());
+    indicators_of = std::make_unique<CoarseIndicators>(fine->coarse, cell_side);
     const auto folder =
       open_run_folder(options.output, {"upsample", inputs()}, options.earlier, options.quiet);
     table = std::make_unique<Table<UpsampleRow>>(options.output);
@@ -127,6 +133,15 @@ public:
   }
 
 private:
+  /// The same, and what was said before.
+  std::vector<std::string> notes() const
+  {
+    std::vector<std::string> lines = summary();
+    if (!fine->left_out.empty())
+      lines.push_back(fine->left_out);
+    return lines;
+  }
+
   bool has_format(const std::string &name) const
   {
     return std::find(options.formats.begin(), options.formats.end(), name) != options.formats.end();
@@ -144,6 +159,9 @@ private:
             {"vt_unit_m", options.vt_unit},
             {"flat", options.is_flat},
             {"up", options.up},
+            {"method", options.method},
+            {"held", options.held},
+            {"slip", options.slip == localization::Slip::of_cloth},
             {"valid_strain", valid ? ordered_json(valid->strain) : ordered_json()}};
   }
 
@@ -303,7 +321,7 @@ private:
              "strain` measures one, --validity takes it";
     return "strain: cell " + valid->cell + " was found valid " +
            (valid->is_open ? "at least up to " : "up to ") + short_text(valid->strain) +
-           " (mean error within " + short_text(100. * valid->limit) +
+           " (mean error of " + valid->method + " within " + short_text(100. * valid->limit) +
            " % of the cell side against " + valid->law + "; " + valid->load + " decides; " +
            valid->file + ")";
   }
@@ -325,7 +343,7 @@ private:
             {"fine_triangles", fine->triangles.rows()},
             {"inputs", inputs()},
             {"indicators", of_indicators},
-            {"notes", summary()},
+            {"notes", notes()},
             {"seconds_per_frame", times},
             {"provenance", provenance(1)}};
   }

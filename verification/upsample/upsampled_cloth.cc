@@ -19,7 +19,7 @@ namespace
 /// A sheet of whole cells, and its coarse mesh.
 struct WholeCells
 {
-  int n1, n2;
+  int n1, n2, quads_per_cell;
   meshes::TriangleMesh rest;
 };
 
@@ -40,38 +40,49 @@ std::optional<WholeCells> whole_cells(const meshes::Lattice &lattice, const Clot
                            size = cells.colwise().maxCoeff() - low;
   if (!(size.maxCoeff() < 1e4) || size.minCoeff() < 0.5)
     return {};
-  const int n1 = static_cast<int>(std::lround(size(0))),
-            n2 = static_cast<int>(std::lround(size(1)));
-  if ((n1 + 1) * (n2 + 1) != rest.n_vertices() || 2 * n1 * n2 != rest.n_triangles())
+  const int n1    = static_cast<int>(std::lround(size(0))),
+            n2    = static_cast<int>(std::lround(size(1)));
+  const int quads = rest.n_triangles() == 8 * n1 * n2 ? 2 : 1;
+  if ((quads * n1 + 1) * (quads * n2 + 1) != rest.n_vertices() ||
+      2 * quads * quads * n1 * n2 != rest.n_triangles())
     return {};
   const Eigen::RowVector2d corner(std::round(low(0)), std::round(low(1)));
-  meshes::TriangleMesh sheet =
-    meshes::coarse_sheet(grain.origin + corner * lattice.vectors, lattice.vectors, n1, n2);
+  meshes::TriangleMesh sheet = meshes::coarse_sheet(
+    grain.origin + corner * lattice.vectors, lattice.vectors / quads, quads * n1, quads * n2);
   const double tolerance = meshes::outline_tolerance * std::sqrt(lattice.area());
   if (rest.triangles != sheet.triangles ||
       (rest.vertices - sheet.vertices).cwiseAbs().maxCoeff() > tolerance)
     return {};
   sheet.material.setZero(sheet.n_triangles());
-  return WholeCells{n1, n2, sheet};
+  return WholeCells{n1, n2, quads, sheet};
 }
 } // namespace
 
 UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &rest,
-                               const meshes::Grain &grain)
-    : coarse(rest)
+                               const meshes::Grain &grain, const localization::Method &method,
+                               localization::GivenCloth given)
+    : used(method)
+    , coarse(rest)
 {
-  using Upsampler = localization::Upsampler<3, float>;
-  if (const auto whole = whole_cells(cell.lattice, rest, grain))
+  using Upsampler                            = localization::Upsampler<3, float>;
+  const auto whole                           = whole_cells(cell.lattice, rest, grain);
+  given.is_sheet                             = whole.has_value();
+  const localization::GivenMethod its_method = on_given(method, cell, given);
+  used                                       = its_method.used;
+  left_out                                   = its_method.left_out;
+  if (whole)
   {
     const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, whole->n1, whole->n2);
     coarse.rest               = whole->rest;
     description = "a sheet of " + std::to_string(whole->n1) + " x " + std::to_string(whole->n2) +
-                  " cells, two coarse triangles each";
-    triangles = sheet.mesh.triangles;
-    look      = meshes::ClothLook::of(sheet.mesh.vertices, triangles, sheet.mesh.material);
-    const meshes::TriangleMesh over_sheet =
-      meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, whole->n1, whole->n2);
-    upsampler = std::make_unique<Upsampler>(cell, over_sheet, sheet);
+                  " cells, " + (whole->quads_per_cell == 1 ? "two" : "eight") +
+                  " coarse triangles each";
+    triangles       = sheet.mesh.triangles;
+    look            = meshes::ClothLook::of(sheet.mesh.vertices, triangles, sheet.mesh.material);
+    const int quads = whole->quads_per_cell;
+    const meshes::TriangleMesh over_sheet = meshes::coarse_sheet(
+      sheet.origin, sheet.lattice.vectors / quads, quads * whole->n1, quads * whole->n2);
+    upsampler = std::make_unique<Upsampler>(cell, over_sheet, sheet, its_method.options);
     // A vertex on an edge belongs to the triangle that the up-sampler takes.
     const meshes::PointLocation location(over_sheet);
     const Eigen::RowVector2d towards =
@@ -90,6 +101,7 @@ UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &res
   triangles = fine.sewn_triangles();
   look      = meshes::ClothLook::of(fine.rest.vertices, fine.rest.triangles, fine.rest.material);
   coarse_triangle = fine.coarse_triangle;
-  upsampler       = std::make_unique<Upsampler>(localization::placed_garment(cell, coarse, fine));
+  upsampler       = std::make_unique<Upsampler>(
+    localization::placed_garment(cell, coarse, fine, its_method.options));
 }
 } // namespace homespun::verification

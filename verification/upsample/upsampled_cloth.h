@@ -2,6 +2,7 @@
 // A cell laid over the coarse cloth of another program's simulation, and the up-sampling of it.
 #pragma once
 
+#include "localization/given_method.h"
 #include "localization/upsampler.h"
 #include "meshes/cloth/cloth_mesh.h"
 #include "meshes/files/surface_files.h"
@@ -17,16 +18,21 @@ namespace homespun::verification
 {
 struct UpsampledCloth
 {
-  /// Lays the cell: where the coarse mesh is that of a sheet of whole cells, two triangles per cell
-  /// in the order of meshes::coarse_sheet(), to 1e-6 of a cell side (the digits of usual files), as
-  /// such a sheet, which is the fast way; else over the panels, cut along their outlines
-  /// (meshes::fine_cloth()).
+  /// Lays the cell: where the coarse mesh is that of a sheet of whole cells, in the order of
+  /// meshes::coarse_sheet(), two triangles per cell or, as six-node triangles are read, eight, to
+  /// 1e-6 of a cell side (the digits of usual files), as such a sheet, which is the fast way; else
+  /// over the panels, cut along their outlines (meshes::fine_cloth()).
   /// @param rest the coarse cloth with its panels at rest
   /// @param grain how the cells lie on all panels
+  /// @param given beside its mesh: whether it is a sheet is found out
   /// @throws BadInput where cell and cloth do not fit
   UpsampledCloth(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &rest,
-                 const meshes::Grain &grain);
+                 const meshes::Grain &grain,
+                 const localization::Method &method = localization::Method("localized"),
+                 localization::GivenCloth given     = {});
 
+  localization::Method used; ///< as localization::GivenMethod has them
+  std::string left_out;
   meshes::ClothMesh coarse;        ///< as given; the rest state of a sheet is that of whole cells
   std::string description;         ///< "a sheet of 20 x 20 cells"
   meshes::Triangles triangles;     ///< (k,3) between fine vertices

@@ -8,6 +8,7 @@
 #include "verification/record/run_folder.h"
 #include "verification/record/validity_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -84,7 +85,8 @@ std::string other_cell(const meshes::HomogenizedCell &cell, const std::string &f
 
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
                                         const std::string &cell_file,
-                                        const std::string &validity_file, const double limit)
+                                        const std::string &validity_file, const double limit,
+                                        const localization::Method &used)
 {
   const std::string file = validity_file.empty() ? table_of(cell_file) : validity_file;
   if (file.empty())
@@ -104,13 +106,23 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
   }
   const std::string main = main_reference(rows, valid.cell);
   valid.law              = main.rfind("yarn", 0) == 0 ? main : "biot";
-  bool is_told           = false;
+  const auto is_of_cell  = [&](const ValidityRow &row)
+  {
+    return row.cell == valid.cell && row.reference == valid.law && row.measure == "cell side" &&
+           row.method != "base";
+  };
+  const auto its =
+    std::find_if(rows.begin(), rows.end(),
+                 [&](const ValidityRow &row) {
+                   return is_of_cell(row) && localization::Method(row.method).has_terms_of(used);
+                 });
+  valid.method = its == rows.end() ? "localized" : its->method;
+  bool is_told = false;
   std::set<std::string> limits;
   for (const ValidityRow &row : rows)
   {
     // The motion may be anybody's: nothing is known of what moved the coarse cloth.
-    if (row.cell != valid.cell || row.reference != valid.law || row.method != "localized" ||
-        row.measure != "cell side")
+    if (!is_of_cell(row) || row.method != valid.method)
       continue;
     if (row.relation != "-" && !std::isfinite(row.largest))
       throw meshes::BadInput(file + ": the row of cell " + row.cell + ", load " + row.load +

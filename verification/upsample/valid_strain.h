@@ -2,6 +2,7 @@
 // Up to which strain a cell was found valid: read off validity.csv of a `homespun strain` run.
 #pragma once
 
+#include "localization/method.h"
 #include "meshes/plain/homogenized_cell.h"
 
 #include <optional>
@@ -20,6 +21,7 @@ struct ValidStrain
   double strain = 0.;   ///< 0 where a load exceeds the limit at its smallest level already [-]
   std::string load;     ///< the one that decides
   std::string law;      ///< of the reference: biot, or where the table has none of it yarn
+  std::string method;   ///< whose rows these are: the one that is used, or `localized`
   bool is_open = false; ///< the limit is kept at the largest level: more was not tried
   double limit = 0.;    ///< part of the cell side
   std::string cell, file;
@@ -33,10 +35,12 @@ struct ValidStrain
 /// @param validity_file empty: validity.csv beside the cell, or in the folder above, if there is
 /// one
 /// @param limit one of those of the table
+/// @param used the method; where the table has no rows of its terms, those of `localized` count
 /// @return nothing where no table is asked for and there is none, or one of another cell
 /// @throws BadInput where the table cannot be read, or lacks the cell, such a law or the limit, or
 /// is asked for and of another cell
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
                                         const std::string &cell_file,
-                                        const std::string &validity_file, double limit);
+                                        const std::string &validity_file, double limit,
+                                        const localization::Method &used);
 } // namespace homespun::verification

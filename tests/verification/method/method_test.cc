@@ -55,7 +55,7 @@ TEST(exact_method, old_names_are_what_they_were)
   const Load sheet("strip-1");
   const auto is = [&](const char *old, const Law law, const std::vector<std::string> &terms)
   {
-    EXPECT_EQ(Method(Method::name_of_old(old)).under(law, sheet).term_names(), terms)
+    EXPECT_EQ(under(Method(Method::name_of_old(old)), law, sheet).term_names(), terms)
       << old << name_of(law);
   };
   is("quadratic", Law::biot, {"cubic", "modes", "micro"});
@@ -71,8 +71,8 @@ TEST(exact_method, a_law_and_a_load_leave_what_has_a_meaning)
   for (const auto &[law, terms] : std::vector<std::pair<Law, std::string>>{
          {Law::linear, "cubic and modes"}, {Law::biot, ""}, {Law::green, ""}, {Law::yarn, "cubic"}})
   {
-    EXPECT_EQ(full.beyond(full.under(law, sheet)), terms) << name_of(law);
-    EXPECT_EQ(full.under(law).beyond(full.under(law, infinite)), "p2 and edges") << name_of(law);
+    EXPECT_EQ(full.beyond(under(full, law, sheet)), terms) << name_of(law);
+    EXPECT_EQ(full.under(law).beyond(under(full, law, infinite)), "p2 and edges") << name_of(law);
   }
   EXPECT_EQ(full.beyond(Method("affine")), "p2, edges, cubic, modes and micro");
   EXPECT_TRUE(full.has_fitted_modes(Law::yarn));

@@ -185,11 +185,10 @@ TEST(exact_moving_edges, full_comes_to_rest_where_the_static_method_does)
     EXPECT_GT(mean_distance(ways.fixed_point, of_three.fixed_point), 1e-3 * ways.strain_side)
       << axis;
 
-    localization::UpsamplerOptions options = full.options(Law::biot);
     const CoarseSpace space(*ways.draped.sheet, CoarseElement::six_nodes);
-    EdgeTerms<2>({ways.homogenized, &edges}, *ways.draped.sheet, space,
-                 edge_kinds(Load(axis == 0 ? "strip-1" : "strip-2")), Law::biot)
-      .give_edges(options);
+    const localization::UpsamplerOptions options =
+      options_of(full, Law::biot, {ways.homogenized, &edges},
+                 edge_kinds(Load(axis == 0 ? "strip-1" : "strip-2")));
     localization::Upsampler<2, double>::Fine in_plane;
     localization::Upsampler<2, double>(ways.homogenized, space.grid.mesh, *ways.draped.sheet,
                                        options)

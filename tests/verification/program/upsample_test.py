@@ -43,6 +43,29 @@ class Oracles(Upsampling):
                         self.assertEqual((self.output / f"{frame}.{ending}").read_bytes(),
                                          fine.read_bytes(), fine)
 
+    def test_frames_of_a_cloth_that_moved_by_the_terms_of_edges_take_them_byte_by_byte(self):
+        scene = (SCENES / "hang.prm").read_text(encoding="utf-8").replace("../cells", str(CELLS))
+        self.assertIn("damping, pins", scene)
+        path = self.folder / "hang.prm"
+        path.write_text(scene.replace("damping, pins", "damping, pins, selvedge"), encoding="utf-8")
+        method = "localized+edges+modes"
+        result = run("drape", path, "--quick", "--duration", 0.1, "--frames", "obj,ply",
+                     "--no-report", "--unit-cells", CELLS / "layered.prm", "--methods",
+                     f"localized,{method}", "--output", self.folder / "drape")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        made = self.folder / "drape" / f"layered-{method}"
+        said = {}
+        for slip in (["--slip"], []):
+            self.output = self.folder / f"out{len(slip)}"
+            self.upsample(made / "coarse_*.obj", "--method", method, "--held", "top", *slip,
+                          "--format", "ply")
+            said[len(slip)] = [(self.output / f"coarse_000{k}.ply").read_bytes() for k in (1, 2)]
+        drawn = [(made / f"fine_000{k}.ply").read_bytes() for k in (1, 2)]
+        self.assertEqual(said[1], drawn)
+        self.assertNotEqual(said[0], drawn)  # of a cloth whose edges lie where they are held
+        refused = self.upsample(made / "coarse_*.obj", "--method", method, status=2)
+        self.assertIn("`held` does not say which edges of the sheet are held", refused)
+
     def test_a_uniform_strain_gives_affine_and_chi(self):
         E11 = 0.03
         self.upsample(self.frame("a.obj", self.vertices * [1. + E11, 1., 1.]),

@@ -262,12 +262,13 @@ TEST(exact_coarse_indicators, the_quantile_goes_by_area)
 
 TEST_F(exact_valid_strain, the_load_that_fails_first_decides)
 {
+  const localization::Method localized("localized");
   meshes::HomogenizedCell made = tests::skewed_cloth().cell;
   made.stiffness               = 100. * Eigen::Matrix3d::Identity();
   made.areal_density           = 0.1;
   const std::string cell       = path + "/dots/cell.h5";
   fs::create_directories(path + "/dots");
-  EXPECT_FALSE(valid_strain(made, cell, "", 0.01).has_value());
+  EXPECT_FALSE(valid_strain(made, cell, "", 0.01, localized).has_value());
   {
     Table<ValidityRow> table(path);
     const auto add = [&](const std::string &of, const std::string &load, const double limit,
@@ -293,17 +294,25 @@ TEST_F(exact_valid_strain, the_load_that_fails_first_decides)
     add("bad", "strip-1", 0.01, "=", 0.1);
     add("bad", "strip-2", 0.01, "-", nothing);
   }
-  const auto found = valid_strain(made, cell, "", 0.01);
+  const auto found = valid_strain(made, cell, "", 0.01, localized);
   ASSERT_TRUE(found.has_value());
   // Simple shear by 0.3 stretches by sqrt(1 + 0.3²/4) + 0.15.
   EXPECT_NEAR(found->strain, std::sqrt(1. + 0.0225) + 0.15 - 1., 1e-15);
   EXPECT_EQ(found->load, "shear-frame");
   EXPECT_FALSE(found->is_open);
-  EXPECT_TRUE(valid_strain(made, cell, path + "/validity.csv", 0.05)->is_open);
-  EXPECT_EQ(valid_strain(made, path + "/bad/cell.h5", path + "/validity.csv", 0.01)->strain, 0.);
+  EXPECT_EQ(found->method, "localized");
+  // Rows of the terms that are used, by whatever name; where there are none, those of `localized`.
+  const auto of_method = [&](const char *const method)
+  { return valid_strain(made, cell, "", 0.01, localization::Method(method)); };
+  EXPECT_EQ(of_method("localized+p2+cubic+edges+modes")->method, "full");
+  EXPECT_EQ(of_method("full")->strain, 0.001);
+  EXPECT_EQ(of_method("localized+modes")->method, "localized");
+  EXPECT_TRUE(valid_strain(made, cell, path + "/validity.csv", 0.05, localized)->is_open);
+  EXPECT_EQ(
+    valid_strain(made, path + "/bad/cell.h5", path + "/validity.csv", 0.01, localized)->strain, 0.);
 
   const auto refused = [&](const std::string &of, const std::string &file, const double limit)
-  { return tests::refusal([&]() { valid_strain(made, of, file, limit); }); };
+  { return tests::refusal([&]() { valid_strain(made, of, file, limit, localized); }); };
   EXPECT_NE(refused(cell, "", 0.02).find("and limit 0.02; found the limits 0.01, 0.05"),
             std::string::npos);
   EXPECT_NE(refused(path + "/none/cell.h5", path + "/validity.csv", 0.01)
@@ -322,10 +331,10 @@ TEST_F(exact_valid_strain, the_load_that_fails_first_decides)
   for (const double stiffer : {1., 1.04})
   {
     left(stiffer, 1.);
-    EXPECT_TRUE(valid_strain(made, cell, "", 0.01).has_value()) << stiffer;
+    EXPECT_TRUE(valid_strain(made, cell, "", 0.01, localized).has_value()) << stiffer;
   }
   left(1.06, 1.);
-  EXPECT_FALSE(valid_strain(made, cell, "", 0.01).has_value());
+  EXPECT_FALSE(valid_strain(made, cell, "", 0.01, localized).has_value());
   EXPECT_NE(refused(cell, path + "/validity.csv", 0.01).find("cell.h5, whose C^H is another one"),
             std::string::npos);
   left(1., 1.00001);

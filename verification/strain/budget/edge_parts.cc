@@ -33,14 +33,14 @@ EdgeParts edge_parts(const CoarseModel &resolved, const Load &load,
   CoarseState moved;
   for (std::size_t k = 0; k < pieces.size(); ++k)
   {
-    const EdgeTerms<2> terms({resolved.cell.cell, &pieces[k]}, resolved.sheet, space,
-                             edge_kinds(load), resolved.law);
+    const CellModel of_pieces = {resolved.cell.cell, &pieces[k]};
+    const EdgeTerms<2> terms(of_pieces, resolved.sheet, space, edge_kinds(load), resolved.law);
     if (k < 3) // modes move no coarse vertex
       moved = resolved.with_edges(terms, u);
-    localization::UpsamplerOptions options = Method("localized+edges").options(resolved.law);
-    terms.give_edges(options);
     localization::Upsampler<2, double>::Fine fine;
-    localization::Upsampler<2, double>(resolved.cell.cell, space.grid.mesh, resolved.sheet, options)
+    localization::Upsampler<2, double>(
+      resolved.cell.cell, space.grid.mesh, resolved.sheet,
+      options_of(Method("localized+edges"), resolved.law, of_pieces, edge_kinds(load)))
       .upsample(moved.positions, fine);
     solutions[k] = fine;
   }

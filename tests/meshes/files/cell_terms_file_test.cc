@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "meshes/files/cell_edges_file.h"
 #include "meshes/files/cell_file.h"
-#include "meshes/plain/errors.h"
 #include "tests/meshes/plain/shapes.h"
+#include "tests/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -48,14 +47,14 @@ std::string temporary(const std::string &name)
 }
 } // namespace
 
-TEST(exact_cell_edges_file, edges_come_back_as_they_were_written)
+TEST(exact_cell_terms_file, edges_come_back_as_they_were_written)
 {
-  const HomogenizedCell cell = plain_cell();
-  const CellEdges edges      = some_edges(cell.mesh.n_vertices());
-  const std::string file     = temporary("round-trip.h5");
-  write_cell(cell, edges, file);
-  EXPECT_EQ(read_cell(file).mesh.vertices, cell.mesh.vertices);
-  const std::optional<CellEdges> back = read_cell_edges(file);
+  HomogenizedCell cell   = plain_cell();
+  const CellEdges edges  = some_edges(cell.mesh.n_vertices());
+  const std::string file = temporary("round-trip.h5");
+  cell.edges             = edges;
+  write_cell(cell, file);
+  const std::optional<CellEdges> back = read_cell(file).edges;
   ASSERT_TRUE(back.has_value());
   for (std::size_t k = 0; k < edges.sides.size(); ++k)
   {
@@ -69,27 +68,45 @@ TEST(exact_cell_edges_file, edges_come_back_as_they_were_written)
     EXPECT_EQ(back->bulk[b], edges.bulk[b]);
 }
 
-TEST(exact_cell_edges_file, a_file_without_edges_has_none)
+TEST(exact_cell_terms_file, a_file_without_terms_has_none)
 {
   const std::string file = temporary("without.h5");
   write_cell(plain_cell(), file);
-  EXPECT_FALSE(read_cell_edges(file).has_value());
+  EXPECT_FALSE(read_cell(file).edges.has_value());
+  EXPECT_TRUE(read_cell(file).fitted.empty());
 }
 
-TEST(tripwire_cell_edges_file, modes_that_are_not_those_of_the_cell_are_refused)
+TEST(exact_cell_terms_file, fitted_modes_come_back_as_they_were_written)
 {
-  const HomogenizedCell cell = plain_cell();
-  CellEdges edges            = some_edges(cell.mesh.n_vertices());
-  edges.sides[1].decay       = 1.5;
+  HomogenizedCell cell = plain_cell();
+  FittedModes &fitted  = cell.fitted["yarn"];
+  fitted.low << -0.1, -0.2, -0.3;
+  fitted.high << 0.1, 0.2, 0.3;
+  fitted.knees << 0.4, 0.5, 0.6;
+  fitted.modes.setRandom(cell.mesh.n_vertices(), 12);
+  fitted.coefficients.setRandom();
+  fitted.of_strain.setRandom();
+  const std::string file = temporary("fitted.h5");
+  write_cell(cell, file);
+  const FittedModes back = read_cell(file).fitted.at("yarn");
+  EXPECT_EQ(back.low, fitted.low);
+  EXPECT_EQ(back.high, fitted.high);
+  EXPECT_EQ(back.knees, fitted.knees);
+  EXPECT_EQ(back.modes, fitted.modes);
+  EXPECT_EQ(back.coefficients, fitted.coefficients);
+  EXPECT_EQ(back.of_strain, fitted.of_strain);
+  fitted.knees(1) = 0.;
+  write_cell(cell, file);
+  EXPECT_NE(tests::refusal([&]() { read_cell(file); }).find("/fitted/yarn/ holds values"),
+            std::string::npos);
+}
+
+TEST(tripwire_cell_terms_file, modes_that_are_not_those_of_the_cell_are_refused)
+{
+  HomogenizedCell cell       = plain_cell();
+  cell.edges                 = some_edges(cell.mesh.n_vertices());
+  cell.edges->sides[1].decay = 1.5;
   const std::string file     = temporary("damaged.h5");
-  write_cell(cell, edges, file);
-  try
-  {
-    read_cell_edges(file);
-    FAIL();
-  }
-  catch (const BadInput &refusal)
-  {
-    EXPECT_NE(std::string(refusal.what()).find("edge 1"), std::string::npos) << refusal.what();
-  }
+  write_cell(cell, file);
+  EXPECT_NE(tests::refusal([&]() { read_cell(file); }).find("edge 1"), std::string::npos);
 }

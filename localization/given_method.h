@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a method is on the coarse cloth of somebody else: its up-sampling.
+//
+// The coarse motion is given, and with it whatever moved the cloth: the terms p2 and cubic of a
+// method are its own. Up-sampling has micro, modes and, of a sheet, edges. There the modes of a
+// clamped edge belong to a coarse edge that lies d E off where it is held (meshes/plain/
+// cell_edges.h). Somebody else's cloth lies where it is held: without slip these modes are worse
+// than none, so that it is added (Slip::added).
+#pragma once
+
+#include "localization/method.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::localization
+{
+/// What is known of the coarse cloth.
+struct GivenCloth
+{
+  bool is_sheet = true; ///< of whole cells, whose edges are lattice lines; else panels
+  /// Edges of a sheet that are held along their whole length: left, right, where the first lattice
+  /// coordinate is smallest and largest, bottom, top; or `none`. The others are free. Empty:
+  /// nobody says, and there are no terms of edges.
+  std::vector<std::string> held;
+  Slip slip = Slip::added; ///< of_cloth: of one that moved by the terms of edges
+};
+
+struct GivenMethod
+{
+  Method used;          ///< what up-sampling has of the method
+  std::string left_out; ///< a sentence on what it has not; empty where that is nothing
+  UpsamplerOptions options;
+};
+
+/// Modes are those that are fitted, where the cell has them, else quadratic ones of `biot`.
+/// @param cell to be kept by the caller until an up-sampler is made
+/// @throws BadInput where the cell lacks what the method asks for, or terms of edges that are asked
+///   for by name have no meaning here
+GivenMethod on_given(const Method &method, const meshes::HomogenizedCell &cell,
+                     const GivenCloth &given);
+} // namespace homespun::localization

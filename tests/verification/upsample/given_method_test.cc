@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// A method on coarse positions that are given: where they are those of a study, the fine positions
+// are its own to the bit; where nobody gave them slip, held edges stay where they are held.
+#include "homogenization/edges/edge_layers.h"
+#include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
+#include "localization/coarse_frames.h"
+#include "localization/given_method.h"
+#include "localization/upsampler.h"
+#include "meshes/files/cell_file.h"
+#include "tests/refusal.h"
+#include "verification/method/coarse_model.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+namespace
+{
+using localization::GivenCloth;
+using localization::Slip;
+
+/// As `homespun homogenize` leaves it, read back from the file; with modes of no cell in the place
+/// of fitted ones.
+meshes::HomogenizedCell cell_of(const std::string &name, const bool is_fitted)
+{
+  const homogenization::UnitCell unit =
+    homogenization::read_unit_cell(std::string(CELLS) + name + ".prm", MPI_COMM_WORLD);
+  homogenization::HomogenizationOptions options;
+  options.order                = 1;
+  options.solver               = homogenization::CellSolver::fastest;
+  options.second_order         = {Law::biot};
+  meshes::HomogenizedCell cell = homogenization::homogenized_cell(
+    unit, homogenization::homogenize(unit, options, MPI_COMM_WORLD), "");
+  cell.edges = homogenization::edges_of(unit, {});
+  if (is_fitted)
+  {
+    meshes::FittedModes &fitted = cell.fitted["yarn"];
+    fitted.low                  = Eigen::Vector3d::Constant(-0.1);
+    fitted.high                 = Eigen::Vector3d::Constant(0.1);
+    fitted.knees                = Eigen::Vector3d(0.02, 0.03, 0.5);
+    fitted.modes                = cell.second_order.at("biot").chi;
+    for (int j = 0; j < fitted.coefficients.size(); ++j)
+      fitted.coefficients(j) = 0.01 * (j % 7 - 3);
+    for (int j = 0; j < fitted.of_strain.size(); ++j)
+      fitted.of_strain(j) = 0.02 * (j % 5 - 2);
+  }
+  const std::string file = testing::TempDir() + "homespun-given-method.h5";
+  meshes::write_cell(cell, file);
+  return meshes::read_cell(file);
+}
+} // namespace
+
+TEST(exact_given_method, from_the_coarse_positions_of_a_study_come_its_fine_ones_to_the_bit)
+{
+  for (const Law law : {Law::biot, Law::yarn})
+  {
+    const meshes::HomogenizedCell cell = cell_of("three-stiffness", law == Law::yarn);
+    const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 4, 4);
+    const CellModel known              = {cell, &*cell.edges,
+                             law == Law::yarn ? &cell.fitted.at("yarn") : nullptr};
+    const Load load("strip-1");
+    std::vector<meshes::Points> all;
+    for (const char *const name :
+         {"affine+p2", "localized", "localized+modes", "localized+edges", "full-p2-cubic", "full"})
+    {
+      SCOPED_TRACE(name + (" " + name_of(law)));
+      const Method method(name);
+      const CoarseModel model(known, sheet, load, method, law);
+      const CoarseState state = model.solve(0.03);
+      const GivenCloth given  = {true, {"left", "right"}, Slip::of_cloth};
+      meshes::Points fine;
+      localization::Upsampler<2, double>(cell, model.parts.space.grid.mesh, sheet,
+                                         on_given(method, cell, given).options)
+        .upsample(model.on_grid(state), fine);
+      EXPECT_EQ(fine, model.upsample(state));
+      for (const meshes::Points &other : all)
+        EXPECT_GT((fine - other).cwiseAbs().maxCoeff(), 1e-9);
+      all.push_back(fine);
+    }
+  }
+}
+
+TEST(bound_given_method, held_edges_stay_where_they_are_held)
+{
+  const meshes::HomogenizedCell cell = cell_of("layered", false);
+  const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 8, 8);
+  const meshes::TriangleMesh rest = meshes::coarse_sheet(sheet.origin, cell.lattice.vectors, 8, 8);
+  Eigen::Matrix2d F;
+  F << 1.02, 0.03, 0., 0.99;
+  const meshes::Points moved = rest.vertices * F.transpose();
+  const auto fine_of =
+    [&](const char *const method, const std::vector<std::string> &held, const Slip slip)
+  {
+    meshes::Points fine;
+    localization::Upsampler<2, double>(cell, rest, sheet,
+                                       on_given(Method(method), cell, {true, held, slip}).options)
+      .upsample(moved, fine);
+    return fine;
+  };
+  const meshes::Points affine = fine_of("affine", {}, Slip::added);
+  const double largest        = // of the fluctuation
+    (fine_of("localized", {}, Slip::added) - affine).rowwise().norm().maxCoeff();
+  for (const auto &[axis, held] : {std::pair(0, std::vector<std::string>{"left", "right"}),
+                                   std::pair(1, std::vector<std::string>{"bottom", "top"})})
+  {
+    const auto farthest = [&](const Slip slip)
+    {
+      const meshes::Points fine = fine_of("localized+edges", held, slip);
+      double distance           = 0.;
+      for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+      {
+        const Eigen::RowVector2d at = sheet.fraction(sheet.mesh.vertices.row(v));
+        // In the middle of a held edge, where layers of free ones are gone.
+        if (std::abs(at(axis) - 0.5) > 0.5 - 1e-9 && std::abs(at(1 - axis) - 0.5) < 0.13)
+          distance = std::max(distance, (fine.row(v) - affine.row(v)).norm());
+      }
+      return distance / largest;
+    };
+    // Fields of an edge below a thousandth of the largest are not kept: those of the other three.
+    EXPECT_LT(farthest(Slip::added), 3e-3) << axis;
+    EXPECT_GT(farthest(Slip::of_cloth), 0.3) << axis; // the coarse cloth has none here
+  }
+}
+
+TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refused)
+{
+  const meshes::HomogenizedCell cell = cell_of("layered", false);
+  const auto left_out = [&](const char *const method, const std::vector<std::string> &held,
+                            const bool is_sheet = true) {
+    return on_given(Method(method), cell, {is_sheet, held}).left_out;
+  };
+  EXPECT_EQ(left_out("localized+modes", {}), "");
+  EXPECT_EQ(left_out("full-p2-cubic", {"none"}), "");
+  EXPECT_EQ(left_out("full", {"top"}),
+            "method full: p2 and cubic belong to the coarse cloth, which is yours");
+  EXPECT_EQ(
+    left_out("full-p2", {}),
+    "method full-p2: cubic belongs to the coarse cloth, which is yours; edges are left out, "
+    "because `held` does not say which edges of the sheet are held: left, right, bottom, "
+    "top, or none");
+  EXPECT_EQ(left_out("full-p2-cubic", {"top"}, false),
+            "method full-p2-cubic: edges are left out, because the cloth is no sheet of whole "
+            "cells, whose edges are lattice lines");
+
+  meshes::HomogenizedCell old = cell;
+  const auto refused          = [&](const char *const method, const std::vector<std::string> &held)
+  {
+    return tests::refusal(
+      [&]()
+      {
+        const auto given = on_given(Method(method), old, {true, held});
+        localization::anchored_quadratic(old, given.options.second_order, given.options.anchor);
+      });
+  };
+  EXPECT_NE(refused("localized+edges", {}).find("there are no terms of edges, because `held`"),
+            std::string::npos);
+  EXPECT_NE(refused("full", {"upper"}).find("held: found `upper`; expected"), std::string::npos);
+  EXPECT_NE(refused("full", {"none", "top"}).find("held: found `none`"), std::string::npos);
+  old.edges.reset();
+  EXPECT_NE(refused("full", {"top"})
+              .find("has no terms of edges: make its cell.h5 again with "
+                    "`homespun homogenize`"),
+            std::string::npos);
+  old.second_order.clear();
+  EXPECT_NE(refused("full-edges", {})
+              .find("no quadratic modes under the law `biot`; found none: "
+                    "make its cell.h5 again with `homespun homogenize`"),
+            std::string::npos);
+}
+} // namespace homespun::verification
