@@ -92,7 +92,9 @@ std::unique_ptr<CellUpsampler> over_sheet(const HomogenizedCell &cell, const Cel
 std::unique_ptr<CellUpsampler> over_garment(const HomogenizedCell &cell, const LaidGarment &garment,
                                             const std::string &method)
 {
-  const auto found  = method_on(cell, method, {false});
+  localization::GivenCloth panels;
+  panels.is_sheet   = false;
+  const auto found  = method_on(cell, method, panels);
   const auto placed = [&cell, &garment, options = found.options]()
   { return placed_garment(cell, garment.coarse, garment.fine, options); };
   const py::gil_scoped_release others_run;

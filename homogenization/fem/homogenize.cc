@@ -343,10 +343,18 @@ meshes::Chi chi_under_forces(const UnitCell &cell, const HomogenizationOptions &
 meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const Homogenization &result,
                                          const std::string &provenance)
 {
-  return {cell.mesh,          cell.lattice,     result.chi,
-          result.anchor,      result.stiffness, cell.areal_density(),
-          provenance,         std::nullopt,     cell.shift ? sentence_of(*cell.shift) : "",
-          result.second_order};
+  return {cell.mesh,
+          cell.lattice,
+          result.chi,
+          result.anchor,
+          result.stiffness,
+          cell.areal_density(),
+          provenance,
+          std::nullopt,
+          cell.shift ? sentence_of(*cell.shift) : "",
+          result.second_order,
+          {},
+          {}};
 }
 
 EngineeringConstants engineering_constants(const Eigen::Matrix3d &stiffness)
