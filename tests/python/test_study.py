@@ -131,7 +131,9 @@ class Studies(unittest.TestCase):
         self.refused(lambda: run.reference("strip-1", 0.2, "biot"), "has no level",
                      "('strip-1', 0.1, 'biot')")
         self.refused(lambda: self.study(loads=["strip-3"]), "unknown load `strip-3`")
-        self.refused(lambda: self.study(strains=[0.02]), "holds another run")
+        # Without --resume a run of seconds is replaced.
+        self.refused(lambda: self.study(strains=[0.02], options=["--resume"]),
+                     "holds another run")
         self.refused(lambda: homespun.study("absent.prm"), "absent.prm: no such file")
         self.refused(lambda: homespun.Study(self.folder), "strain --keep")
 
