@@ -14,6 +14,7 @@ import h5py
 import numpy
 
 import homespun
+from with_cell import Refusing
 
 BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -35,13 +36,7 @@ def striped(n, side=0.01):
     return vertices, numpy.array(triangles, dtype=numpy.int32), numpy.array(groups)
 
 
-class Homogenize(unittest.TestCase):
-    def refused(self, call, *texts):
-        with self.assertRaises(ValueError) as caught:
-            call()
-        for text in texts:
-            self.assertIn(text, str(caught.exception))
-
+class Homogenize(Refusing):
     def test_a_file_gives_the_cell_and_the_brackets_of_the_program_bit_for_bit(self):
         # The drawing of hexagonal-dots has curves, whose bracket is another than that of its mesh.
         for name in ("layered", "hexagonal-dots"):

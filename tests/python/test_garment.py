@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Cells laid over a mesh of one's own: an OBJ is up-sampled as the sheet that it is."""
-import os
 import pathlib
-import subprocess
-import tempfile
 import unittest
 
 import numpy
 
 import homespun
+from with_cell import SIDE, WithCell
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-SIDE = 0.01
 
 
 def write_obj(path, positions, triangles, vt=None):
@@ -23,16 +20,12 @@ def write_obj(path, positions, triangles, vt=None):
             file.write("f " + " ".join(f"{k}" if vt is None else f"{k}/{k}" for k in corners) + "\n")
 
 
-class Garments(unittest.TestCase):
+class Garments(WithCell):
     n = 5
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        subprocess.run([os.environ["HOMESPUN_MAKE_CELL"], cls.folder / "cell.h5"], check=True)
-        cls.cell = homespun.Cell.read(cls.folder / "cell.h5")
+        super().setUpClass()
         cls.sheet = homespun.Sheet(cls.cell, cls.n, cls.n)
         cls.rest = cls.sheet.coarse_vertices
         cls.flat = numpy.column_stack([cls.rest, numpy.zeros(len(cls.rest))])
@@ -40,12 +33,6 @@ class Garments(unittest.TestCase):
         write_obj(cls.obj, cls.flat, cls.sheet.coarse_triangles)
         x, y, _ = cls.flat.T
         cls.moved = numpy.column_stack([1.03 * x + 0.02 * y, 0.1 * x * x / SIDE, y])
-
-    def refused(self, call, *texts):
-        with self.assertRaises(homespun.BadInput) as caught:
-            call()
-        for text in texts:
-            self.assertIn(text, str(caught.exception))
 
     def assert_same_cloth(self, garment, moved, of_sheet):
         """Vertex by vertex, found by their places at rest."""

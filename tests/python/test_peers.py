@@ -2,7 +2,6 @@
 """The peers: what each must do whatever the cell, and that nothing is tested that was trained on."""
 import contextlib
 import io
-import os
 import pathlib
 import sys
 import tempfile

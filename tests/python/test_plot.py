@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pictures show what they are of: colours of phases, displaced cells, what is in front, numbers."""
-import os
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import matplotlib
@@ -12,6 +9,7 @@ import numpy
 
 import homespun
 from homespun import plot
+from with_cell import WithCell
 
 matplotlib.use("Agg")
 
@@ -33,15 +31,7 @@ class Mesh:
     material = numpy.array([0, 1], dtype=numpy.int32)
 
 
-class Pictures(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        subprocess.run([os.environ["HOMESPUN_MAKE_CELL"], cls.folder / "cell.h5"], check=True)
-        cls.cell = homespun.Cell.read(cls.folder / "cell.h5")
-
+class Pictures(WithCell):
     def tearDown(self):
         matplotlib.pyplot.close("all")
 

@@ -11,6 +11,7 @@ import unittest
 import numpy
 
 import homespun
+from with_cell import Refusing
 
 BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
 CELLS = pathlib.Path(__file__).resolve().parents[2] / "meshes" / "cells"
@@ -30,7 +31,7 @@ def carried(mesh):
     return lambda coarse: numpy.einsum("nk,nkc->nc", shares, coarse[triangles[of]])
 
 
-class Studies(unittest.TestCase):
+class Studies(Refusing):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
@@ -51,12 +52,6 @@ class Studies(unittest.TestCase):
         silence = contextlib.redirect_stderr(self.quiet)
         silence.__enter__()
         self.addCleanup(silence.__exit__, None, None, None)
-
-    def refused(self, call, *texts, kind=homespun.BadInput):
-        with self.assertRaises(kind) as caught:
-            call()
-        for text in texts:
-            self.assertIn(text, str(caught.exception))
 
     def by_the_program(self, fine, name):
         """Rows of strain.csv that `homespun judge` writes for positions in files."""

@@ -49,7 +49,7 @@ std::vector<LoadRow> read_measured_curve(const std::string &file)
   for (std::size_t k = 0; k < taken.size(); k += 2)
     has_pair = has_pair || (has(taken[k]) && has(taken[k + 1]));
   if (!has_pair)
-    throw meshes::BadInput(file + ": found the columns " + meshes::one_of(table.columns) + 
+    throw meshes::BadInput(file + ": found the columns " + meshes::one_of(table.columns) +
                            "; expected strain and stress of one component at least, like "
                            "strain_11,stress_11_N_per_m");
   std::vector<LoadRow> rows;

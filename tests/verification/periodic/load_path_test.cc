@@ -297,6 +297,7 @@ TEST(tripwire_load, a_load_beyond_the_limit_point_is_not_reached_and_says_why)
   const LoadPath path =
     load_path({cell.homogenized, phases, Law::green}, control({"11=-75"}, {}), 100);
   EXPECT_NE(path.why, "");
+  ASSERT_FALSE(path.levels.empty());
   const double most = 1. / (3. * std::sqrt(3.)) * E;
   EXPECT_LE(-path.levels.back().stress(0), most);
   EXPECT_GE(-path.levels.back().stress(0), most - 0.75);
