@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "localization/edge_modes.h"
 
+#include "meshes/plain/point_location.h"
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 namespace homespun::localization
 {
@@ -90,31 +94,52 @@ EdgeModes::Row EdgeModes::at(const int vertex, const EdgeKind kind) const
   return sum;
 }
 
-std::vector<Eigen::Matrix<double, 2, 3>>
-EdgeModes::slip_of(const meshes::TriangleMesh &coarse) const
+EdgeSlip EdgeModes::slip_of(const meshes::TriangleMesh &coarse) const
 {
   constexpr double nothing = 1e-12;
-  std::vector<Eigen::Matrix<double, 2, 3>> result;
+  EdgeSlip slip;
   if (!are_there() || std::find(kinds.begin(), kinds.end(), EdgeKind::clamped) == kinds.end())
-    return result;
+    return slip;
+  const meshes::PointLocation location(coarse);
+  std::map<std::pair<int, std::size_t>, int> source_of; // of a vertex at an edge
+  std::vector<Eigen::Triplet<double>> entries;
   for (int v = 0; v < coarse.n_vertices(); ++v)
   {
-    const Eigen::RowVector2d fraction = sheet.fraction(coarse.vertices.row(v));
-    Eigen::Matrix<double, 2, 3> sum   = Eigen::Matrix<double, 2, 3>::Zero();
-    double weights                    = 0.;
+    const Eigen::RowVector2d fraction =
+      sheet.fraction(coarse.vertices.row(v)).cwiseMax(0.).cwiseMin(1.);
+    std::array<double, meshes::CellEdges::n_sides> weight = {};
+    for (std::size_t side = 0; side < kinds.size(); ++side)
+      if (kinds[side] == EdgeKind::clamped)
+      {
+        const double along = fraction(meshes::axis_of_side(static_cast<int>(side)));
+        weight[side] =
+          1. / std::max(meshes::is_far_side(static_cast<int>(side)) ? 1. - along : along, nothing);
+      }
+    const double sum = std::accumulate(weight.begin(), weight.end(), 0.);
     for (std::size_t side = 0; side < kinds.size(); ++side)
     {
       if (kinds[side] != EdgeKind::clamped)
         continue;
-      const double along    = fraction(meshes::axis_of_side(static_cast<int>(side))),
-                   distance = meshes::is_far_side(static_cast<int>(side)) ? 1. - along : along,
-                   weight   = 1. / std::max(distance, nothing);
-      sum += weight * edges->sides[side].slip;
-      weights += weight;
+      Eigen::RowVector2d opposite = fraction;
+      opposite(meshes::axis_of_side(static_cast<int>(side))) =
+        meshes::is_far_side(static_cast<int>(side)) ? 1. : 0.;
+      const meshes::Location at =
+        location.locate(sheet.origin + opposite * sheet.sides(), Eigen::RowVector2d::Zero());
+      for (int k = 0; at.triangle >= 0 && k < 3; ++k)
+        if (std::abs(at.weights(k)) > 1e-9)
+        {
+          const int vertex = coarse.triangles(at.triangle, k);
+          const auto [found, is_new] =
+            source_of.try_emplace({vertex, side}, static_cast<int>(slip.sources.size()));
+          if (is_new)
+            slip.sources.push_back({vertex, edges->sides[side].slip});
+          entries.emplace_back(v, found->second, weight[side] / sum * at.weights(k));
+        }
     }
-    result.push_back(sum / weights);
   }
-  return result;
+  slip.of_sources.resize(coarse.n_vertices(), static_cast<Eigen::Index>(slip.sources.size()));
+  slip.of_sources.setFromTriplets(entries.begin(), entries.end());
+  return slip;
 }
 
 std::vector<std::string> edge_faults(const meshes::HomogenizedCell &cell,
@@ -126,6 +151,10 @@ std::vector<std::string> edge_faults(const meshes::HomogenizedCell &cell,
   if (options.anchor != Anchor::mean)
     faults.emplace_back("up-sampling: terms of edges are asked for with chi anchored at the "
                         "lattice points; expected Anchor::mean, whose missing term they are");
+  if (options.slip == Slip::added && options.blend != Blend::continuous)
+    faults.emplace_back(
+      "up-sampling: slip of clamped edges is added with Blend::piecewise; expected "
+      "Blend::continuous, whose strains at vertices it follows");
   for (std::size_t side = 0; side < options.edge_kinds.size(); ++side)
   {
     const meshes::CellEdge &edge = options.edges->sides[side];

@@ -10,6 +10,7 @@
 #include "meshes/plain/sheet.h"
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <array>
 #include <string>
@@ -17,6 +18,36 @@
 
 namespace homespun::localization
 {
+/// How the slip L d E of clamped edges moves a coarse mesh: it is taken at the vertices of the
+/// edges, with their strain and rotation, and carried into the sheet.
+struct EdgeSlip
+{
+  struct Source
+  {
+    int vertex;                    ///< of the coarse mesh
+    Eigen::Matrix<double, 2, 3> d; ///< of its edge [m]
+  };
+  std::vector<Source> sources;                             ///< none: there is no slip
+  Eigen::SparseMatrix<double, Eigen::RowMajor> of_sources; ///< (n_coarse, sources); rows add to 1
+
+  /// What each coarse vertex is moved by [m].
+  /// @param records of the coarse vertices, `size` numbers each: position, E, L row by row
+  template <int dim, typename Scalar>
+  Positions<dim> moves(const Scalar *const records, const int size) const
+  {
+    Positions<dim> of_source(static_cast<Eigen::Index>(sources.size()), dim);
+    for (std::size_t k = 0; k < sources.size(); ++k)
+    {
+      const Scalar *const E = records + sources[k].vertex * size + dim;
+      const Eigen::Map<const Eigen::Matrix<Scalar, dim, 2, Eigen::RowMajor>> L(E + 3);
+      of_source.row(static_cast<Eigen::Index>(k)) =
+        (L.template cast<double>() * (sources[k].d * Eigen::Vector3d(E[0], E[1], E[2])))
+          .transpose();
+    }
+    return of_sources * of_source;
+  }
+};
+
 class EdgeModes
 {
 public:
@@ -41,10 +72,11 @@ public:
     return at(vertex, EdgeKind::clamped) + at(vertex, EdgeKind::free);
   }
 
-  /// d at the vertices of a coarse mesh [m]: on a clamped edge its own, elsewhere that of all
-  /// clamped edges, weighted by one over the distance, in parts of the sheet; between two that face
-  /// each other it is linear, as where the sheet is strained evenly. Empty where none is clamped.
-  std::vector<Eigen::Matrix<double, 2, 3>> slip_of(const meshes::TriangleMesh &coarse) const;
+  /// The slip of a coarse mesh, with that of each clamped edge where a vertex stands opposite it,
+  /// weighted by one over the distance from it in parts of the sheet: a single clamped edge takes
+  /// the sheet along, and between two that face each other slip is linear, as where the sheet is
+  /// strained evenly.
+  EdgeSlip slip_of(const meshes::TriangleMesh &coarse) const;
 
   /// How far a cell of the sheet is from each edge that reaches it, in cells; −1: it does not. The
   /// vertices of cells for which this is alike have the same modes.

@@ -34,9 +34,15 @@ GivenMethod on_given(const Method &method, const meshes::HomogenizedCell &cell,
                      const GivenCloth &given)
 {
   const EdgeKinds kinds = kinds_of(given.held);
-  GivenMethod result    = {method.without(Term::p2).without(Term::cubic), "", {}};
+  GivenMethod result    = {method.without(Term::p2).without(Term::cubic), Law::biot, "", {}};
   if (!result.used.has(Term::micro))
-    result.used = result.used.without(Term::edges).without(Term::modes);
+    for (const Term term : {Term::edges, Term::modes})
+    {
+      if (method.asks_for(term))
+        throw meshes::BadInput("method " + method.name + ": up-sampling has " + name_of(term) +
+                               " with micro alone; expected localized+" + name_of(term));
+      result.used = result.used.without(term);
+    }
   const bool has_p2 = method.has(Term::p2), has_cubic = method.has(Term::cubic);
   if (has_p2 || has_cubic)
     result.left_out = std::string(!has_cubic ? "p2 belongs"
@@ -61,13 +67,14 @@ GivenMethod on_given(const Method &method, const meshes::HomogenizedCell &cell,
     result.left_out = "method " + method.name + ": " + result.left_out;
 
   CellModel model = {cell, cell.edges ? &*cell.edges : nullptr};
-  Law law         = Law::biot;
-  for (const auto &[name, modes] : cell.fitted) // under the law of yarns
-  {
-    law          = meshes::law_of(name);
-    model.fitted = &modes;
-  }
-  result.options      = options_of(result.used, law, model, kinds);
+  for (const Law law : meshes::all_laws())
+    if (const auto fitted = cell.fitted.find(meshes::name_of(law));
+        model.fitted == nullptr && fitted != cell.fitted.end())
+    {
+      result.law   = law;
+      model.fitted = &fitted->second;
+    }
+  result.options      = options_of(result.used, result.law, model, kinds);
   result.options.slip = given.slip;
   return result;
 }

@@ -29,14 +29,16 @@ struct GivenCloth
 struct GivenMethod
 {
   Method used;          ///< what up-sampling has of the method
+  Law law = Law::biot;  ///< whose modes it takes
   std::string left_out; ///< a sentence on what it has not; empty where that is nothing
   UpsamplerOptions options;
 };
 
-/// Modes are those that are fitted, where the cell has them, else quadratic ones of `biot`.
+/// Modes are those that are fitted, of the first law that the cell has them of, else quadratic ones
+/// of `biot`.
 /// @param cell to be kept by the caller until an up-sampler is made
-/// @throws BadInput where the cell lacks what the method asks for, or terms of edges that are asked
-///   for by name have no meaning here
+/// @throws BadInput where the cell lacks what the method asks for, or terms of up-sampling that are
+///   asked for by name have no meaning here
 GivenMethod on_given(const Method &method, const meshes::HomogenizedCell &cell,
                      const GivenCloth &given);
 } // namespace homespun::localization

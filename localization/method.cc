@@ -157,6 +157,15 @@ bool Method::asks_for(const Term term) const
   return name.find("+" + name_of(term)) != std::string::npos;
 }
 
+std::string Method::name_without(const Term term) const
+{
+  const std::string added = "+" + name_of(term);
+  const std::size_t at    = name.find(added);
+  return Method(at == std::string::npos ? name + "-" + name_of(term)
+                                        : std::string(name).erase(at, added.size()))
+    .name;
+}
+
 std::vector<std::string> Method::presets()
 {
   std::vector<std::string> names;
@@ -216,23 +225,23 @@ UpsamplerOptions options_of(const Method &method, const Law law, const CellModel
 {
   UpsamplerOptions options = method.options(law);
   const auto refuse_without =
-    [&](const std::string &what, const std::string &term, const std::string &who_makes_it)
+    [&](const std::string &what, const Term term, const std::string &who_makes_it)
   {
     throw meshes::BadInput("method " + method.name + ": the cell has no " + what + ": " +
-                           who_makes_it + ", or leave the term out, as in " + method.name + "-" +
-                           term);
+                           who_makes_it + ", or leave the term out, as in " +
+                           method.name_without(term));
   };
   if (method.has(Term::micro) && method.has_fitted_modes(law))
   {
     if (cell.fitted == nullptr)
-      refuse_without("modes fitted under the law `" + meshes::name_of(law) + "`", "modes",
+      refuse_without("modes fitted under the law `" + meshes::name_of(law) + "`", Term::modes,
                      "take the CELL/cell.h5 of `homespun strain`, which leaves them there");
     options.fitted = cell.fitted;
   }
   if (method.has(Term::micro) && method.has(Term::edges))
   {
     if (cell.edges == nullptr)
-      refuse_without("terms of edges", "edges",
+      refuse_without("terms of edges", Term::edges,
                      "make its cell.h5 again with `homespun homogenize`, or of a large mesh with "
                      "`homespun strain`");
     options.edges      = cell.edges;

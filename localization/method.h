@@ -70,6 +70,9 @@ public:
   /// Whether a term is asked for by name, and not with a preset.
   bool asks_for(Term term) const;
 
+  /// What the method is called without a term that it has.
+  std::string name_without(Term term) const;
+
   /// The names of the presets.
   static std::vector<std::string> presets();
 

@@ -208,25 +208,18 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
         records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
   if (are_fitted(kind_of_modes(options)))
     fill_fitted_records(values);
-  if (!slip.empty())
+  if (!slip.sources.empty())
     add_slip(coarse_current);
 }
 
-/// Moves the coarse vertices by L d E, with the strain that clamped edges follow.
 template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::add_slip(const PositionsOf<dim> coarse_current) const
 {
-  Scalar *record = records.data();
-  for (Eigen::Index v = 0; v < coarse_current.rows(); ++v)
-  {
-    const Scalar *const E = record + dim, *const L = E + 3;
-    const Eigen::Vector2d moved =
-      slip[static_cast<std::size_t>(v)] * Eigen::Vector3d(E[0], E[1], E[2]);
+  const int size             = record_size(kind_of_modes(options));
+  const Positions<dim> moved = coarse_current + slip.moves<dim>(records.data(), size);
+  for (Eigen::Index v = 0; v < moved.rows(); ++v)
     for (int i = 0; i < dim; ++i)
-      record[i] =
-        static_cast<Scalar>(coarse_current(v, i) + L[2 * i] * moved(0) + L[2 * i + 1] * moved(1));
-    record += record_size(kind_of_modes(options));
-  }
+      records[static_cast<std::size_t>(v * size + i)] = static_cast<Scalar>(moved(v, i));
 }
 
 template <int dim, typename Scalar>

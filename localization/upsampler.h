@@ -18,12 +18,14 @@
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
 // are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8. Fitted modes
 // take as many numbers; their coefficients are computed at the coarse vertices and linear between.
-// Slip of clamped edges, where up-sampling adds it, moves the coarse vertices before all else.
+// Slip of clamped edges, where up-sampling adds it, moves the coarse vertices, but not their
+// strain.
 #pragma once
 
 #include "localization/cell_modes.h"
 #include "localization/cell_tables.h"
 #include "localization/coarse_frames.h"
+#include "localization/edge_modes.h"
 #include "localization/kernel.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
@@ -136,7 +138,7 @@ private:
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< of placed vertices: positions by rest vertex
   meshes::FittedResponse fitted;           ///< where the options take fitted modes
-  std::vector<Eigen::Matrix<double, 2, 3>> slip; ///< d of each coarse vertex, where it is added [m]
-  mutable std::vector<Scalar> records;           ///< of each coarse vertex: see record_size()
+  EdgeSlip slip;                           ///< where it is added
+  mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization

@@ -5,6 +5,7 @@
 #include "meshes/cloth/cloth_faults.h"
 #include "meshes/cloth/seams.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -28,6 +29,12 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
   if (options.edges != nullptr)
     faults.emplace_back("up-sampling: modes of edges are asked for of a garment; its outlines and "
                         "seams are no lattice lines and have none: leave edges empty");
+  if ((options.strain == Strain::linear || options.lift == Lift::identity) &&
+      std::any_of(fine.grains.begin(), fine.grains.end(),
+                  [](const meshes::Grain &grain) { return grain.angle != 0.; }))
+    faults.emplace_back(
+      "up-sampling: a linear strain or no lift is asked for of a cloth whose cells "
+      "are turned; expected Strain::biot and a lift, which know of the turn");
   check_lattice(cell, fine.lattice, "fine cloth", faults);
   const auto n        = static_cast<Eigen::Index>(fine.n_vertices());
   const bool has_size = fine.panel.size() == n && fine.cell_vertex.size() == n &&

@@ -46,6 +46,11 @@ TEST(tripwire_garment, faults_are_named)
   expect(refusal(good, options), "fades over 5 cell sides at seams; expected 0 to 4");
   options.seam_fade = std::nan("");
   expect(refusal(good, options), "expected 0 to 4");
+  options                       = {};
+  options.lift                  = Lift::identity;
+  bad                           = good;
+  bad.fine.grains.front().angle = 0.3;
+  expect(refusal(bad, options), "of a cloth whose cells are turned");
 
   const Upsampler<3> upsampler(placed_garment(good.cell, good.coarse, good.fine));
   Upsampler<3>::Fine fine;

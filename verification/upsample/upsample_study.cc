@@ -77,11 +77,11 @@ public:
     fine                      = std::make_unique<UpsampledCloth>(
       cell, rest.cloth, grain, localization::Method(options.method),
       localization::GivenCloth{true, options.held, options.slip});
-    if (fine->used.has(localization::Term::micro))
+    if (fine->method.used.has(localization::Term::micro))
       valid =
-        valid_strain(cell, options.cell_file, options.validity_file, options.limit, fine->used);
-    if (!fine->left_out.empty() && !options.quiet)
-      std::fprintf(stderr, "homespun: %s\n", fine->left_out.c_str());
+        valid_strain(cell, options.cell_file, options.validity_file, options.limit, fine->method);
+    if (!fine->method.left_out.empty() && !options.quiet)
+      std::fprintf(stderr, "homespun: %s\n", fine->method.left_out.c_str());
     indicators_of = std::make_unique<CoarseIndicators>(fine->coarse, cell_side);
     const auto folder =
       open_run_folder(options.output, {"upsample", inputs()}, options.earlier, options.quiet);
@@ -113,7 +113,10 @@ public:
       std::to_string(names.size()) + (names.size() == 1 ? " frame of " : " frames of ") +
       fine->description + ", " + std::to_string(fine->triangles.rows()) +
       " fine triangles: " + options.output +
-      (n_before == 0 ? "" : "; of them " + std::to_string(n_before) + " of earlier calls")};
+      (n_before == 0
+         ? ""
+         : "; of them " + std::to_string(n_before) + " of earlier calls" +
+             (cache || animation ? ", which are not in frames.pc2 and frames.usda" : ""))};
     for (const Indicator &indicator : indicators)
     {
       const UpsampleRow row = worst_row(indicator.name);
@@ -137,8 +140,8 @@ private:
   std::vector<std::string> notes() const
   {
     std::vector<std::string> lines = summary();
-    if (!fine->left_out.empty())
-      lines.push_back(fine->left_out);
+    if (!fine->method.left_out.empty())
+      lines.push_back(fine->method.left_out);
     return lines;
   }
 
@@ -316,14 +319,20 @@ private:
 
   std::string validity_text() const
   {
+    if (!fine->method.used.has(localization::Term::micro))
+      return "strain: a range of validity is one of up-sampling, which `" + options.method +
+             "` has none of; the largest one is told as it is";
     if (!valid)
       return "strain: no range of validity is known, the largest one is told as it is; `homespun "
              "strain` measures one, --validity takes it";
     return "strain: cell " + valid->cell + " was found valid " +
            (valid->is_open ? "at least up to " : "up to ") + short_text(valid->strain) +
-           " (mean error of " + valid->method + " within " + short_text(100. * valid->limit) +
-           " % of the cell side against " + valid->law + "; " + valid->load + " decides; " +
-           valid->file + ")";
+           " (mean error of " + valid->method +
+           (localization::Method(valid->method).has_terms_of(fine->method.used)
+              ? ""
+              : ", not of what " + options.method + " has here,") +
+           " within " + short_text(100. * valid->limit) + " % of the cell side against " +
+           valid->law + "; " + valid->load + " decides; " + valid->file + ")";
   }
 
   ordered_json description() const

@@ -2,6 +2,7 @@
 #include "verification/upsample/upsampled_cloth.h"
 
 #include "localization/garment/placed_garment.h"
+#include "meshes/cloth/cloth_faults.h"
 #include "meshes/cloth/seams.h"
 #include "meshes/plain/point_location.h"
 #include "meshes/plain/sheet.h"
@@ -19,70 +20,88 @@ namespace
 /// A sheet of whole cells, and its coarse mesh.
 struct WholeCells
 {
-  int n1, n2, quads_per_cell;
+  int n1, n2, quads;         ///< of the coarse mesh along a cell's side; 0: it is in no such order
+  Eigen::RowVector2d corner; ///< of the sheet [m]
   meshes::TriangleMesh rest;
 };
 
-/// The sheet that a coarse mesh is, its vertices where whole cells have them; nothing where it is
-/// none.
+/// The sheet that a coarse mesh covers, its vertices where whole cells have them; nothing where it
+/// covers none.
 std::optional<WholeCells> whole_cells(const meshes::Lattice &lattice, const ClothMesh &cloth,
                                       const meshes::Grain &grain)
 {
-  const meshes::TriangleMesh &rest = cloth.rest;
-  if (grain.angle != 0. || rest.n_vertices() != cloth.n_vertices() ||
-      rest.triangles != cloth.triangles)
+  if (grain.angle != 0. || cloth.rest.n_vertices() != cloth.n_vertices() ||
+      cloth.rest.triangles != cloth.triangles)
     return {};
+  WholeCells whole = {0, 0, 0, {}, cloth.rest};
   // In cells along a1 and a2 from the lattice point that is given.
-  meshes::Points cells(rest.n_vertices(), 2);
-  for (int v = 0; v < rest.n_vertices(); ++v)
-    cells.row(v) = lattice.fractional(rest.vertices.row(v) - grain.origin);
-  const Eigen::RowVector2d low  = cells.colwise().minCoeff(),
-                           size = cells.colwise().maxCoeff() - low;
-  if (!(size.maxCoeff() < 1e4) || size.minCoeff() < 0.5)
+  meshes::Points cells(whole.rest.n_vertices(), 2);
+  for (int v = 0; v < cells.rows(); ++v)
+    cells.row(v) = lattice.fractional(whole.rest.vertices.row(v) - grain.origin);
+  const Eigen::RowVector2d low  = cells.colwise().minCoeff().array().round(),
+                           high = cells.colwise().maxCoeff().array().round();
+  const auto beside             = [&](const Eigen::Array2d &line) // of each vertex
+  { return (cells.array().rowwise() - line.transpose()).abs() <= meshes::outline_tolerance; };
+  const double n_cells = (high - low).prod();
+  if (!(n_cells >= 1.) || !((high - low).maxCoeff() < 1e4) ||
+      (cells.rowwise() - low).minCoeff() < -meshes::outline_tolerance ||
+      (cells.rowwise() - high).maxCoeff() > meshes::outline_tolerance ||
+      std::abs(signed_areas(whole.rest).sum() / lattice.area() - n_cells) >
+        4. * meshes::outline_tolerance * (high - low).sum())
     return {};
-  const int n1    = static_cast<int>(std::lround(size(0))),
-            n2    = static_cast<int>(std::lround(size(1)));
-  const int quads = rest.n_triangles() == 8 * n1 * n2 ? 2 : 1;
-  if ((quads * n1 + 1) * (quads * n2 + 1) != rest.n_vertices() ||
-      2 * quads * quads * n1 * n2 != rest.n_triangles())
+  for (const Eigen::RowVector2d &line : {low, high})
+    cells = beside(line.array()).select(line.replicate(cells.rows(), 1), cells);
+  whole.n1     = static_cast<int>(high(0) - low(0));
+  whole.n2     = static_cast<int>(high(1) - low(1));
+  whole.corner = grain.origin + low * lattice.vectors;
+  for (const int quads : {1, 2}) // of the sides of a cell
+  {
+    meshes::TriangleMesh in_order = meshes::coarse_sheet(whole.corner, lattice.vectors / quads,
+                                                         quads * whole.n1, quads * whole.n2);
+    in_order.material             = whole.rest.material;
+    if (whole.rest.triangles == in_order.triangles &&
+        whole.rest.vertices.rows() == in_order.vertices.rows() &&
+        (whole.rest.vertices - in_order.vertices).cwiseAbs().maxCoeff() <=
+          meshes::outline_tolerance * std::sqrt(lattice.area()))
+    {
+      whole.quads = quads;
+      whole.rest  = in_order;
+      return whole;
+    }
+  }
+  if (!meshes::cloth_faults(cloth, "").empty())
     return {};
-  const Eigen::RowVector2d corner(std::round(low(0)), std::round(low(1)));
-  meshes::TriangleMesh sheet = meshes::coarse_sheet(
-    grain.origin + corner * lattice.vectors, lattice.vectors / quads, quads * n1, quads * n2);
-  const double tolerance = meshes::outline_tolerance * std::sqrt(lattice.area());
-  if (rest.triangles != sheet.triangles ||
-      (rest.vertices - sheet.vertices).cwiseAbs().maxCoeff() > tolerance)
-    return {};
-  sheet.material.setZero(sheet.n_triangles());
-  return WholeCells{n1, n2, quads, sheet};
+  whole.rest.vertices = (cells * lattice.vectors).rowwise() + grain.origin;
+  return whole;
 }
 } // namespace
 
 UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &rest,
                                const meshes::Grain &grain, const localization::Method &method,
                                localization::GivenCloth given)
-    : used(method)
+    : method{method, {}, {}, {}}
     , coarse(rest)
 {
-  using Upsampler                            = localization::Upsampler<3, float>;
-  const auto whole                           = whole_cells(cell.lattice, rest, grain);
-  given.is_sheet                             = whole.has_value();
-  const localization::GivenMethod its_method = on_given(method, cell, given);
-  used                                       = its_method.used;
-  left_out                                   = its_method.left_out;
+  using Upsampler  = localization::Upsampler<3, float>;
+  const auto whole = whole_cells(cell.lattice, rest, grain);
+  given.is_sheet   = whole.has_value();
+  this->method     = on_given(method, cell, given);
   if (whole)
   {
     const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, whole->n1, whole->n2);
     coarse.rest               = whole->rest;
+    triangles                 = sheet.mesh.triangles;
+    look = meshes::ClothLook::of(sheet.mesh.vertices, triangles, sheet.mesh.material);
+    meshes::TriangleMesh over_sheet = whole->rest;
+    if (const int quads = whole->quads; quads > 0)
+      over_sheet = meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / quads,
+                                        quads * whole->n1, quads * whole->n2);
+    else
+      over_sheet.vertices.rowwise() += sheet.origin - whole->corner;
+    upsampler   = std::make_unique<Upsampler>(cell, over_sheet, sheet, this->method.options);
     description = "a sheet of " + std::to_string(whole->n1) + " x " + std::to_string(whole->n2) +
-                  " cells, " + (whole->quads_per_cell == 1 ? "two" : "eight") +
-                  " coarse triangles each";
-    triangles       = sheet.mesh.triangles;
-    look            = meshes::ClothLook::of(sheet.mesh.vertices, triangles, sheet.mesh.material);
-    const int quads = whole->quads_per_cell;
-    const meshes::TriangleMesh over_sheet = meshes::coarse_sheet(
-      sheet.origin, sheet.lattice.vectors / quads, quads * whole->n1, quads * whole->n2);
-    upsampler = std::make_unique<Upsampler>(cell, over_sheet, sheet, its_method.options);
+                  " cells, " + std::to_string(rest.n_triangles()) + " coarse triangles" +
+                  (upsampler->is_aligned() ? " on their lattice" : "");
     // A vertex on an edge belongs to the triangle that the up-sampler takes.
     const meshes::PointLocation location(over_sheet);
     const Eigen::RowVector2d towards =
@@ -102,6 +121,6 @@ UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &res
   look      = meshes::ClothLook::of(fine.rest.vertices, fine.rest.triangles, fine.rest.material);
   coarse_triangle = fine.coarse_triangle;
   upsampler       = std::make_unique<Upsampler>(
-    localization::placed_garment(cell, coarse, fine, its_method.options));
+    localization::placed_garment(cell, coarse, fine, this->method.options));
 }
 } // namespace homespun::verification

@@ -18,10 +18,10 @@ namespace homespun::verification
 {
 struct UpsampledCloth
 {
-  /// Lays the cell: where the coarse mesh is that of a sheet of whole cells, in the order of
-  /// meshes::coarse_sheet(), two triangles per cell or, as six-node triangles are read, eight, to
-  /// 1e-6 of a cell side (the digits of usual files), as such a sheet, which is the fast way; else
-  /// over the panels, cut along their outlines (meshes::fine_cloth()).
+  /// Lays the cell: where the coarse mesh covers a parallelogram of whole cells, to 1e-6 of a cell
+  /// side (the digits of usual files), as such a sheet, which has edges (in the order of
+  /// meshes::coarse_sheet(), two triangles per cell or, as six-node triangles are read, eight: the
+  /// fast way); else over the panels, cut along their outlines (meshes::fine_cloth()).
   /// @param rest the coarse cloth with its panels at rest
   /// @param grain how the cells lie on all panels
   /// @param given beside its mesh: whether it is a sheet is found out
@@ -31,13 +31,12 @@ struct UpsampledCloth
                  const localization::Method &method = localization::Method("localized"),
                  localization::GivenCloth given     = {});
 
-  localization::Method used; ///< as localization::GivenMethod has them
-  std::string left_out;
-  meshes::ClothMesh coarse;        ///< as given; the rest state of a sheet is that of whole cells
-  std::string description;         ///< "a sheet of 20 x 20 cells"
-  meshes::Triangles triangles;     ///< (k,3) between fine vertices
-  meshes::ClothLook look;          ///< its phases, and texture by the rest coordinates
-  Eigen::VectorXi coarse_triangle; ///< the coarse triangle of each fine vertex
+  localization::GivenMethod method; ///< its options are used up
+  meshes::ClothMesh coarse;         ///< as given; the rest state of a sheet is that of whole cells
+  std::string description;          ///< "a sheet of 20 x 20 cells"
+  meshes::Triangles triangles;      ///< (k,3) between fine vertices
+  meshes::ClothLook look;           ///< its phases, and texture by the rest coordinates
+  Eigen::VectorXi coarse_triangle;  ///< the coarse triangle of each fine vertex
   std::unique_ptr<localization::Upsampler<3, float>> upsampler;
 };
 } // namespace homespun::verification

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace homespun::verification
@@ -86,7 +87,7 @@ std::string other_cell(const meshes::HomogenizedCell &cell, const std::string &f
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
                                         const std::string &cell_file,
                                         const std::string &validity_file, const double limit,
-                                        const localization::Method &used)
+                                        const localization::GivenMethod &given)
 {
   const std::string file = validity_file.empty() ? table_of(cell_file) : validity_file;
   if (file.empty())
@@ -111,12 +112,18 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
     return row.cell == valid.cell && row.reference == valid.law && row.measure == "cell side" &&
            row.method != "base";
   };
-  const auto its =
-    std::find_if(rows.begin(), rows.end(),
-                 [&](const ValidityRow &row) {
-                   return is_of_cell(row) && localization::Method(row.method).has_terms_of(used);
-                 });
-  valid.method = its == rows.end() ? "localized" : its->method;
+  std::map<std::string, std::set<std::string>> loads_of;
+  for (const ValidityRow &row : rows)
+    if (is_of_cell(row))
+      loads_of[row.method].insert(row.load);
+  const bool is_studied =
+    meshes::name_of(given.law) == valid.law && (!given.used.has(localization::Term::edges) ||
+                                                given.options.slip == localization::Slip::of_cloth);
+  valid.method = "localized";
+  for (const auto &[method, loads] : loads_of)
+    if (is_studied && loads == loads_of["localized"] &&
+        localization::Method(method).has_terms_of(given.used))
+      valid.method = method;
   bool is_told = false;
   std::set<std::string> limits;
   for (const ValidityRow &row : rows)

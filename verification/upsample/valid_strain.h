@@ -2,7 +2,7 @@
 // Up to which strain a cell was found valid: read off validity.csv of a `homespun strain` run.
 #pragma once
 
-#include "localization/method.h"
+#include "localization/given_method.h"
 #include "meshes/plain/homogenized_cell.h"
 
 #include <optional>
@@ -35,12 +35,14 @@ struct ValidStrain
 /// @param validity_file empty: validity.csv beside the cell, or in the folder above, if there is
 /// one
 /// @param limit one of those of the table
-/// @param used the method; where the table has no rows of its terms, those of `localized` count
+/// @param given the method; its own rows count where the table has them of its law and of all loads
+/// that `localized` has, but of slip that up-sampling adds, which the studied cloths have
+/// themselves; else those of `localized` do
 /// @return nothing where no table is asked for and there is none, or one of another cell
 /// @throws BadInput where the table cannot be read, or lacks the cell, such a law or the limit, or
 /// is asked for and of another cell
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
                                         const std::string &cell_file,
                                         const std::string &validity_file, double limit,
-                                        const localization::Method &used);
+                                        const localization::GivenMethod &given);
 } // namespace homespun::verification

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -126,6 +127,50 @@ TEST(bound_given_method, held_edges_stay_where_they_are_held)
   }
 }
 
+TEST(exact_given_method, the_slip_of_one_held_edge_moves_the_whole_sheet_and_turns_with_the_edge)
+{
+  const meshes::HomogenizedCell cell = cell_of("layered", false);
+  const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 4, 8);
+  const meshes::TriangleMesh rest = meshes::coarse_sheet(sheet.origin, cell.lattice.vectors, 4, 8);
+  const double height             = sheet.sides()(1, 1);
+  // Strain grows from the bottom, which is held, to ten times as much at the top.
+  meshes::Points moved = rest.vertices;
+  for (int v = 0; v < rest.n_vertices(); ++v)
+  {
+    const double y = sheet.fraction(rest.vertices.row(v))(1);
+    moved(v, 1) += height * (0.002 * y + 0.009 * y * y);
+    moved(v, 0) += height * (0.004 * y + 0.018 * y * y);
+  }
+  const Eigen::Rotation2Dd turn(1.2);
+  const auto slip_of = [&](const meshes::Points &positions, const char *const method)
+  {
+    const Method of(method);
+    std::array<meshes::Points, 2> fine;
+    for (const Slip slip : {Slip::added, Slip::of_cloth})
+      localization::Upsampler<2, double>(cell, rest, sheet,
+                                         on_given(of, cell, {true, {"bottom"}, slip}).options)
+        .upsample(positions, fine[slip == Slip::added ? 0 : 1]);
+    return meshes::Points(fine[0] - fine[1]);
+  };
+  const meshes::Points slip = slip_of(moved, "localized+edges"),
+                       turned =
+                         slip_of(moved * turn.toRotationMatrix().transpose(), "localized+edges");
+  localization::CoarseFrames<2> frames(rest, localization::Method("localized").options(Law::biot));
+  const Eigen::Vector3d E = frames.values(moved).row(2).head<3>(); // of the edge, away from corners
+  Eigen::Matrix2d L;
+  L << frames.values(moved)(2, 3), frames.values(moved)(2, 4), frames.values(moved)(2, 5),
+    frames.values(moved)(2, 6);
+  const Eigen::RowVector2d expected = (L * (cell.edges->sides[2].slip * E)).transpose();
+  ASSERT_GT(expected.norm(), 1e-7 * height);
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    EXPECT_LT((slip.row(v) - expected).norm(), 1e-9 * expected.norm()) << v;
+    EXPECT_LT((turned.row(v) - (turn * expected.transpose()).transpose()).norm(),
+              1e-9 * expected.norm())
+      << v;
+  }
+}
+
 TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refused)
 {
   const meshes::HomogenizedCell cell = cell_of("layered", false);
@@ -156,6 +201,7 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
         localization::anchored_quadratic(old, given.options.second_order, given.options.anchor);
       });
   };
+  EXPECT_NE(refused("affine+modes", {}).find("expected localized+modes"), std::string::npos);
   EXPECT_NE(refused("localized+edges", {}).find("there are no terms of edges, because `held`"),
             std::string::npos);
   EXPECT_NE(refused("full", {"upper"}).find("held: found `upper`; expected"), std::string::npos);
@@ -165,6 +211,9 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
               .find("has no terms of edges: make its cell.h5 again with "
                     "`homespun homogenize`"),
             std::string::npos);
+  const std::string cure = refused("localized+edges", {"top"});
+  EXPECT_EQ(cure.substr(cure.rfind(' ') + 1), "localized");
+  EXPECT_NE(refused("full", {"top"}).find("as in full-edges"), std::string::npos);
   old.second_order.clear();
   EXPECT_NE(refused("full-edges", {})
               .find("no quadratic modes under the law `biot`; found none: "

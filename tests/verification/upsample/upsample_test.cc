@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A cell over somebody else's cloth: bits of the up-sampler, and indicators in closed form.
 #include "meshes/cloth/seams.h"
-#include "meshes/files/cell_file.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/files/write_whole.h"
 #include "tests/localization/localization_cases.h"
 #include "tests/refusal.h"
-#include "verification/record/table.h"
-#include "verification/record/validity_table.h"
 #include "verification/upsample/coarse_indicators.h"
 #include "verification/upsample/frame_files.h"
 #include "verification/upsample/upsampled_cloth.h"
-#include "verification/upsample/valid_strain.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +74,6 @@ protected:
   }
   std::string path;
 };
-using exact_valid_strain   = Folder;
 using tripwire_frame_files = Folder;
 using exact_frame_files    = Folder;
 } // namespace
@@ -110,6 +105,49 @@ TEST(exact_upsampled_cloth, a_sheet_of_whole_cells_has_the_bits_of_the_up_sample
     direct.upsample(x, other);
     EXPECT_EQ(one, other);
   }
+}
+
+TEST(exact_upsampled_cloth, a_sheet_of_whole_cells_in_triangles_of_ones_own_is_the_same_sheet)
+{
+  const tests::Cloth own    = tests::skewed_cloth(); // 4 x 3 cells
+  const meshes::Grain grain = {own.sheet.origin, 0.};
+  meshes::TriangleMesh rest = meshes::coarse_sheet(
+    own.sheet.origin, Eigen::Vector2d(4. / 5., 3. / 7.).asDiagonal() * own.cell.lattice.vectors, 5,
+    7);
+  rest.material.setZero(rest.n_triangles());
+  for (int v = 0; v < rest.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d at = own.sheet.fraction(rest.vertices.row(v));
+    const bool is_inside        = (at.array() > 0.01).all() && (at.array() < 0.99).all();
+    // Digits of files on the outline, another place inside.
+    rest.vertices.row(v) += Eigen::RowVector2d(std::sin(7. * v), std::cos(5. * v)) *
+                            (is_inside ? 0.1 : 0.3e-6) * std::sqrt(own.cell.lattice.area());
+  }
+  meshes::TriangleMesh ordered = own.coarse;
+  ordered.material.setZero(ordered.n_triangles());
+  const UpsampledCloth in_order(own.cell, flat(ordered), grain), cloth(own.cell, flat(rest), grain);
+  EXPECT_EQ(cloth.description, "a sheet of 4 x 3 cells, 70 coarse triangles");
+  EXPECT_EQ(cloth.triangles, in_order.triangles);
+  EXPECT_EQ(cloth.look.material, in_order.look.material);
+  Eigen::Matrix<double, 3, 2> F; // strain is the same in all triangles of both
+  F << 1.05, 0.02, -0.01, 0.97, 0.1, 0.2;
+  meshes::FloatPoints one, other;
+  cloth.upsampler->upsample(tests::affine_motion<3>(rest.vertices, F), one);
+  in_order.upsampler->upsample(tests::affine_motion<3>(own.coarse.vertices, F), other);
+  EXPECT_LT((one - other).cwiseAbs().maxCoeff(),
+            1e-6 * std::sqrt(own.cell.lattice.area()) + 0x1p-22);
+
+  // Not one: an outline that is off, a hole.
+  const auto is_sheet = [&](const meshes::TriangleMesh &mesh)
+  { return UpsampledCloth(own.cell, flat(mesh), grain).description.rfind("a sheet", 0) == 0; };
+  meshes::TriangleMesh off = rest;
+  off.vertices.row(2) += Eigen::RowVector2d(0., 1e-3) * std::sqrt(own.cell.lattice.area());
+  EXPECT_FALSE(is_sheet(off));
+  meshes::TriangleMesh open = rest;
+  open.triangles.row(20)    = open.triangles.row(69);
+  open.triangles.conservativeResize(69, 3);
+  open.material.setZero(69);
+  EXPECT_FALSE(is_sheet(open));
 }
 
 TEST(exact_upsampled_cloth, every_fine_vertex_lies_in_its_coarse_triangle)
@@ -258,91 +296,6 @@ TEST(exact_coarse_indicators, the_quantile_goes_by_area)
   EXPECT_EQ(row.largest, 100.);
   EXPECT_EQ(row.worst, 1);
   EXPECT_NEAR(row.mean, 0.995 * 1. + 0.005 * 100., 1e-12);
-}
-
-TEST_F(exact_valid_strain, the_load_that_fails_first_decides)
-{
-  const localization::Method localized("localized");
-  meshes::HomogenizedCell made = tests::skewed_cloth().cell;
-  made.stiffness               = 100. * Eigen::Matrix3d::Identity();
-  made.areal_density           = 0.1;
-  const std::string cell       = path + "/dots/cell.h5";
-  fs::create_directories(path + "/dots");
-  EXPECT_FALSE(valid_strain(made, cell, "", 0.01, localized).has_value());
-  {
-    Table<ValidityRow> table(path);
-    const auto add = [&](const std::string &of, const std::string &load, const double limit,
-                         const std::string &relation, const double strain,
-                         const std::string &method = "localized")
-    {
-      ValidityRow row;
-      row.cell      = of;
-      row.load      = load;
-      row.reference = "biot";
-      row.method    = method;
-      row.measure   = "cell side";
-      row.limit     = limit;
-      row.relation  = relation;
-      row.largest   = strain;
-      table.append(row);
-    };
-    add("dots", "strip-1", 0.01, "=", 0.2);
-    add("dots", "shear-frame", 0.01, "=", 0.3);
-    add("dots", "strip-1", 0.05, ">", 0.5);
-    add("dots", "strip-1", 0.01, "=", 0.001, "full"); // which moves a coarse cloth of its own
-    add("other", "strip-1", 0.01, "=", 0.001);
-    add("bad", "strip-1", 0.01, "=", 0.1);
-    add("bad", "strip-2", 0.01, "-", nothing);
-  }
-  const auto found = valid_strain(made, cell, "", 0.01, localized);
-  ASSERT_TRUE(found.has_value());
-  // Simple shear by 0.3 stretches by sqrt(1 + 0.3²/4) + 0.15.
-  EXPECT_NEAR(found->strain, std::sqrt(1. + 0.0225) + 0.15 - 1., 1e-15);
-  EXPECT_EQ(found->load, "shear-frame");
-  EXPECT_FALSE(found->is_open);
-  EXPECT_EQ(found->method, "localized");
-  // Rows of the terms that are used, by whatever name; where there are none, those of `localized`.
-  const auto of_method = [&](const char *const method)
-  { return valid_strain(made, cell, "", 0.01, localization::Method(method)); };
-  EXPECT_EQ(of_method("localized+p2+cubic+edges+modes")->method, "full");
-  EXPECT_EQ(of_method("full")->strain, 0.001);
-  EXPECT_EQ(of_method("localized+modes")->method, "localized");
-  EXPECT_TRUE(valid_strain(made, cell, path + "/validity.csv", 0.05, localized)->is_open);
-  EXPECT_EQ(
-    valid_strain(made, path + "/bad/cell.h5", path + "/validity.csv", 0.01, localized)->strain, 0.);
-
-  const auto refused = [&](const std::string &of, const std::string &file, const double limit)
-  { return tests::refusal([&]() { valid_strain(made, of, file, limit, localized); }); };
-  EXPECT_NE(refused(cell, "", 0.02).find("and limit 0.02; found the limits 0.01, 0.05"),
-            std::string::npos);
-  EXPECT_NE(refused(path + "/none/cell.h5", path + "/validity.csv", 0.01)
-              .find("holds the cells bad, dots, other; expected one cell, or one that is named"),
-            std::string::npos);
-  EXPECT_NE(refused(cell, path + "/no.csv", 0.01).find("no.csv: no such file"), std::string::npos);
-
-  // The cell that the run of the table left beside it: the same, one of another mesh, two others.
-  const auto left = [&](const double stiffer, const double longer)
-  {
-    meshes::HomogenizedCell tried = made;
-    tried.stiffness *= stiffer;
-    tried.lattice.vectors *= longer;
-    meshes::write_cell(tried, cell);
-  };
-  for (const double stiffer : {1., 1.04})
-  {
-    left(stiffer, 1.);
-    EXPECT_TRUE(valid_strain(made, cell, "", 0.01, localized).has_value()) << stiffer;
-  }
-  left(1.06, 1.);
-  EXPECT_FALSE(valid_strain(made, cell, "", 0.01, localized).has_value());
-  EXPECT_NE(refused(cell, path + "/validity.csv", 0.01).find("cell.h5, whose C^H is another one"),
-            std::string::npos);
-  left(1., 1.00001);
-  EXPECT_NE(refused(cell, path + "/validity.csv", 0.01).find("whose lattice is another one"),
-            std::string::npos);
-  left(1., 1.);
-  meshes::write_whole(path + "/run.json", "{\"format_version\": 9}");
-  EXPECT_NE(refused(cell, "", 0.01).find("run.json: found format_version 9"), std::string::npos);
 }
 
 TEST_F(exact_frame_files, a_pattern_gives_files_in_the_order_of_their_numbers)
