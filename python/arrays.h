@@ -64,7 +64,7 @@ bool has_shape_of(const py::array &array)
     return array.ndim() == 2 && array.shape(1) == Matrix::ColsAtCompileTime;
 }
 
-/// Refuses an entry of an array that lies without gaps.
+/// Refuses an entry, counted row by row.
 [[noreturn]] inline void refuse_entry(const py::array &array, const py::ssize_t entry,
                                       const std::string &name, const std::string &expected)
 {
@@ -95,8 +95,8 @@ inline py::array_t<int> exactly(const py::array &array, const std::string &name,
     const auto numbers = exactly(array, name, double());
     for (py::ssize_t k = 0; k < numbers.size(); ++k)
       if (const double number = numbers.data()[k];
-          number != std::floor(number) || number > std::numeric_limits<int>::max())
-        refuse_entry(numbers, k, name, expected);
+          number != std::floor(number) || number < 0. || number > std::numeric_limits<int>::max())
+        refuse_entry(array, k, name, expected); // with the digits of what was given
   }
   auto indices = Indices::ensure(array);
   for (py::ssize_t k = 0; k < indices.size(); ++k)

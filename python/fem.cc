@@ -15,6 +15,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -30,9 +31,23 @@ using homogenization::UnitCell;
 
 struct Choices
 {
-  unsigned int order                   = 2;
-  bool bars                            = true;
-  std::optional<unsigned int> max_dofs = {}; ///< of brackets; nothing: the default of the program
+  Choices(const long order, const bool bars, const std::optional<long> max_dofs)
+      : order(static_cast<unsigned int>(order))
+      , bars(bars)
+  {
+    if (order != 1 && order != 2)
+      throw meshes::BadInput("order: found " + std::to_string(order) + "; expected 1 or 2");
+    constexpr long most = std::numeric_limits<unsigned int>::max();
+    if (max_dofs && (*max_dofs < 1 || *max_dofs > most))
+      throw meshes::BadInput("max_dofs: found " + std::to_string(*max_dofs) + "; expected 1 to " +
+                             std::to_string(most) + ", or None");
+    if (max_dofs)
+      this->max_dofs = static_cast<unsigned int>(*max_dofs);
+  }
+
+  unsigned int order;
+  bool bars;
+  std::optional<unsigned int> max_dofs; ///< of brackets; nothing: the default of the program
 };
 
 /// Whoever else uses MPI in this process may have started it.
@@ -104,8 +119,6 @@ verification::AssessedCell assessed(const UnitCell &cell, const Choices &choices
 BracketedCell homogenized(const UnitCell &cell, const Choices &choices,
                           const std::string &provenance)
 {
-  if (choices.order != 1 && choices.order != 2)
-    throw meshes::BadInput("order: found " + std::to_string(choices.order) + "; expected 1 or 2");
   start_mpi();
   const verification::AssessedCell found = [&]()
   {
@@ -114,8 +127,8 @@ BracketedCell homogenized(const UnitCell &cell, const Choices &choices,
   }();
   for (const verification::Verdict &check : found.checks)
     if (check.outcome == verification::Outcome::fail)
-      warn("FAIL " + check.claim + ": found " + std::to_string(check.value) + "; expected " +
-           check.limit);
+      warn("FAIL " + check.claim + ": found " + std::string(py::str(py::float_(check.value))) +
+           "; expected " + check.limit);
   BracketedCell result{verification::homogenized_cell(cell, found, provenance), {}, {}};
   result.edges = found.edges->edges;
   if (found.bracket && found.bracket->bracket)
@@ -197,6 +210,31 @@ Eigen::VectorXi materials_of(const py::object &groups, const Eigen::Index n_tria
   return materials;
 }
 
+/// With the lattice that its outline has.
+/// @throws BadInput where the mesh is none of a cell
+UnitCell periodic(UnitCell cell)
+{
+  std::vector<std::string> faults = meshes::faults_of(cell.mesh, cell.name);
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  faults = meshes::messages_of(
+    homogenization::conformity_faults(cell.mesh, cell.name, homogenization::Slits::refused, 1.));
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  homogenization::MatchedCell matched =
+    homogenization::match_drawn_sides(cell.mesh, {}, {}, cell.name);
+  faults = meshes::messages_of(matched.faults);
+  if (matched.cuts_holes && faults.empty())
+    faults = {cell.name +
+              ": the outline cuts holes; expected them inside: draw the cell from another "
+              "place, or homogenize it from a file"};
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  cell.mesh    = std::move(matched.mesh);
+  cell.lattice = matched.lattice;
+  return cell;
+}
+
 BracketedCell homogenize_arrays(const py::object &vertices, const py::object &triangles,
                                 const py::object &groups, const py::sequence &phases,
                                 const Choices &choices)
@@ -222,24 +260,10 @@ BracketedCell homogenize_arrays(const py::object &vertices, const py::object &tr
   if (cell.phases.empty())
     throw meshes::BadInput("phases: found none; expected a dict for each number in `groups`");
   cell.mesh.material = materials_of(groups, cell.mesh.n_triangles(), cell.phases.size());
-  std::vector<std::string> faults = meshes::faults_of(cell.mesh, cell.name);
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  faults = meshes::messages_of(
-    homogenization::conformity_faults(cell.mesh, cell.name, homogenization::Slits::refused, 1.));
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  homogenization::MatchedCell matched =
-    homogenization::match_drawn_sides(cell.mesh, {}, {}, cell.name);
-  faults = meshes::messages_of(matched.faults);
-  if (matched.cuts_holes && faults.empty())
-    faults = {cell.name +
-              ": the outline cuts holes; expected them inside: draw the cell from another "
-              "place, or homogenize it from a file"};
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  cell.mesh    = std::move(matched.mesh);
-  cell.lattice = matched.lattice;
+  {
+    const py::gil_scoped_release others_run;
+    cell = periodic(std::move(cell));
+  }
   return homogenized(cell, choices, "homespun for Python, from arrays");
 }
 } // namespace
@@ -248,8 +272,8 @@ PYBIND11_MODULE(_fem, module)
 {
   py::module_::import("homespun._light"); // which knows Cell and the exceptions
   py::class_<Choices>(module, "Choices")
-    .def(py::init<unsigned int, bool, std::optional<unsigned int>>(), py::arg("order"),
-         py::arg("bars"), py::arg("max_dofs"));
+    .def(py::init<long, bool, std::optional<long>>(), py::arg("order"), py::arg("bars"),
+         py::arg("max_dofs"));
   module.def("homogenize_file", &homogenize_file, py::arg("file"), py::arg("choices"));
   module.def("homogenize_arrays", &homogenize_arrays, py::arg("vertices"), py::arg("triangles"),
              py::arg("groups"), py::arg("phases"), py::arg("choices"));

@@ -39,15 +39,16 @@ struct CellSheet
   meshes::TriangleMesh coarse;
 };
 
-std::unique_ptr<CellSheet> make_sheet(const HomogenizedCell &cell, const int n1, const int n2,
+std::unique_ptr<CellSheet> make_sheet(const HomogenizedCell &cell, const long n1, const long n2,
                                       const long max_triangles)
 {
   for (const auto &[name, number] : {std::pair("n1", n1), std::pair("n2", n2)})
     if (number < 1)
       throw meshes::BadInput(std::string(name) + ": found " + std::to_string(number) +
                              "; expected at least 1 cell");
-  check_size(cell, static_cast<double>(n1) * n2, max_triangles);
-  return std::make_unique<CellSheet>(cell, n1, n2);
+  check_size(cell, static_cast<double>(n1) * static_cast<double>(n2), max_triangles);
+  const py::gil_scoped_release others_run; // and no longer: pybind11 enters the object in a list
+  return std::make_unique<CellSheet>(cell, static_cast<int>(n1), static_cast<int>(n2));
 }
 
 /// In space, as what runs every frame; in the plane, in double precision, as studies compare.
@@ -55,7 +56,7 @@ struct CellUpsampler
 {
   localization::Method used;
   const Upsampler<3, float> in_space;
-  const std::function<std::unique_ptr<Upsampler<2, double>>()> make_in_plane;
+  const std::function<std::unique_ptr<Upsampler<2, double>>()> make_in_plane; ///< no Python in it
   std::unique_ptr<Upsampler<2, double>> in_plane = {}; ///< once it is asked for
 };
 
@@ -124,7 +125,10 @@ py::object upsample(CellUpsampler &upsampler, const py::object &positions, const
   if (!given || given.ndim() != 2 || given.shape(1) != 2)
     return upsampled(upsampler.in_space, positions, out);
   if (!upsampler.in_plane)
+  {
+    const py::gil_scoped_release others_run;
     upsampler.in_plane = upsampler.make_in_plane();
+  }
   return upsampled(*upsampler.in_plane, positions, out);
 }
 
@@ -140,7 +144,7 @@ void declare_sheet(py::module_ &module)
                         "triangles per cell.")
     .def(
       py::init(&make_sheet), py::arg("cell"), py::arg("n1"), py::arg("n2"), py::kw_only(),
-      py::arg("max_triangles") = most_triangles, py::call_guard<py::gil_scoped_release>(),
+      py::arg("max_triangles") = most_triangles,
       "n1, n2: numbers of cells along the lattice vectors, at least 1. Raises BadInput where the "
       "cell is no parallelogram, or the fine mesh would have more than max_triangles.")
     .def_property_readonly("vertices",

@@ -11,7 +11,7 @@ namespace homespun::python
 /// Of a fine mesh, unless somebody asks for more: some 5 GB.
 constexpr long most_triangles = 10'000'000;
 
-/// Refuses so many cells where their fine mesh would fill the memory.
+/// Refuses so many cells where their fine mesh would fill the memory, or could not be numbered.
 /// @throws BadInput with both numbers
 void check_size(const meshes::HomogenizedCell &cell, double n_cells, long max_triangles);
 

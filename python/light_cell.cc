@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -73,12 +74,17 @@ void declare_bracket(py::module_ &module)
 
 void check_size(const HomogenizedCell &cell, const double n_cells, const long max_triangles)
 {
+  constexpr long that_have_numbers = std::numeric_limits<int>::max() / 3; // so have three corners
+  if (max_triangles < 1 || max_triangles > that_have_numbers)
+    throw meshes::BadInput("max_triangles: found " + std::to_string(max_triangles) +
+                           "; expected 1 to " + std::to_string(that_have_numbers));
   const double n_triangles = n_cells * cell.mesh.n_triangles();
   if (n_triangles <= static_cast<double>(max_triangles))
     return;
   std::ostringstream text;
-  text << "cells: " << std::lround(n_cells) << " of " << cell.mesh.n_triangles()
-       << " triangles would be a fine mesh of " << std::lround(n_triangles)
+  text.precision(std::numeric_limits<double>::digits10);
+  text << "cells: " << std::round(n_cells) << " of " << cell.mesh.n_triangles()
+       << " triangles would be a fine mesh of " << std::round(n_triangles)
        << "; expected at most max_triangles = " << max_triangles
        << ": take a larger cell or a smaller mesh (is it in metres?), or raise max_triangles";
   throw meshes::BadInput(text.str());

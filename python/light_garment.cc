@@ -25,8 +25,6 @@ using meshes::HomogenizedCell;
 
 ClothMesh cloth_in(const fs::path &file, const double unit)
 {
-  if (!(unit > 0.) || !std::isfinite(unit))
-    throw meshes::BadInput("unit: found " + std::to_string(unit) + "; expected metres per unit");
   meshes::Polygons mesh = meshes::read_polygons(file);
   mesh.positions *= unit;
   if (!mesh.has_vt)
@@ -93,6 +91,9 @@ void declare_garment(py::module_ &module)
            [](const HomogenizedCell &cell, const fs::path &file, const double unit,
               const py::object &origin, const double angle, const long max_triangles)
            {
+             if (!(unit > 0.) || !std::isfinite(unit))
+               throw meshes::BadInput("unit: found " + std::string(py::str(py::float_(unit))) +
+                                      "; expected metres per unit, as 0.01 of centimetres");
              const meshes::Grain grain = grain_of(origin, angle);
              const py::gil_scoped_release others_run;
              return laid(cell, cloth_in(file, unit), grain, max_triangles);
@@ -144,7 +145,11 @@ void declare_garment(py::module_ &module)
     "read_positions",
     [](const fs::path &file)
     {
-      const meshes::SpacePoints positions = meshes::read_polygons(file).positions;
+      const meshes::SpacePoints positions = [&]()
+      {
+        const py::gil_scoped_release others_run;
+        return meshes::read_polygons(file).positions;
+      }();
       return copy_of(positions);
     },
     py::arg("file"),

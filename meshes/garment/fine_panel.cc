@@ -84,6 +84,14 @@ void cover(FinePanel &panel, const TriangleMesh &cell_mesh, const Lattice &latti
     low                            = low.cwiseMin(f);
     high                           = high.cwiseMax(f);
   }
+  if (const double farthest = std::max(-low.minCoeff(), high.maxCoeff()); !(farthest <= 1e9))
+  {
+    std::ostringstream text;
+    text << "fine cloth: a panel lies " << farthest << " cells from the origin of the cells; "
+         << "expected at most 1e9, where a place in a cell still has seven digits: take an origin "
+            "near the panel";
+    throw BadInput(text.str());
+  }
   // At least a thousandth of a cell around the panel, so that its outline has triangles on both
   // sides.
   const Eigen::RowVector2d first = (low.array() - 1e-3).floor(),

@@ -68,6 +68,12 @@ class Cloths(WithCell):
             moved[1, 2] = value
             self.refused(lambda: homespun.Cloth(self.cell, rest, moved),
                          f"triangles: found {text}", "at [1, 2]; expected")
+        for value in (-2**32, -2**32 + 5, -2**62, 2**31, 2**32 + 5, 2**63 - 1, -2**63, 2**63):
+            whole = triangles.astype(numpy.uint64 if value == 2**63 else numpy.int64)
+            whole[1, 2] = value  # of which 32 bits would be an index that is there
+            self.refused(lambda: homespun.Cloth(self.cell, rest, whole),
+                         f"triangles: found {value} at [1, 2]; expected indices")
+            self.refused(lambda: make(held=whole[1]), f"held: found {value} at [2]; expected")
         wrong = triangles.copy()
         wrong[1, 2] = -1
         self.refused(lambda: homespun.Cloth(self.cell, rest, wrong), "triangles: found -1 at [1, 2]")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Homogenization from Python: the program's numbers, cells from arrays, refusals."""
 import json
-import os
 import pathlib
 import shutil
 import subprocess
@@ -14,11 +13,9 @@ import h5py
 import numpy
 
 import homespun
-from with_cell import Refusing
+from with_cell import BUILD, CELLS, SOURCE, Refusing
 
-BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-CELL = SOURCE / "meshes/cells/layered.prm"
+CELL = CELLS / "layered.prm"
 SOFT = {"E": 1e6, "nu": 0.3, "thickness": 5e-4, "density": 400.}
 HARD = {"E": 1e7, "nu": 0.3, "thickness": 5e-4, "density": 400.}
 
@@ -40,7 +37,7 @@ class Homogenize(Refusing):
     def test_a_file_gives_the_cell_and_the_brackets_of_the_program_bit_for_bit(self):
         # The drawing of hexagonal-dots has curves, whose bracket is another than that of its mesh.
         for name in ("layered", "hexagonal-dots"):
-            prm = SOURCE / f"meshes/cells/{name}.prm"
+            prm = CELLS / f"{name}.prm"
             cell = homespun.homogenize(prm)
             with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
                 subprocess.run([BUILD / "homespun", "homogenize", "--quiet", "--output", folder, prm],
@@ -177,7 +174,10 @@ class Homogenize(Refusing):
         self.refused(lambda: homespun.homogenize("nowhere.prm"), "nowhere.prm", "no such file")
         self.refused(lambda: homespun.homogenize(), "vertices, triangles, groups, phases missing")
         self.refused(lambda: homespun.homogenize(CELL, groups=groups), "a file and groups")
-        self.refused(call(order=3), "order: found 3; expected 1 or 2")
+        for order in (3, 0, -1, 2**32 + 2):
+            self.refused(call(order=order), f"order: found {order}; expected 1 or 2")
+        for most in (0, -5, 2**32 + 1000):
+            self.refused(call(max_dofs=most), f"max_dofs: found {most}; expected 1 to 4294967295")
         self.refused(call(groups=groups[:-1]), "groups", str(len(triangles)))
         self.refused(call(groups=groups + 1), "groups: triangle", "expected 0 to 1")
         self.refused(call(phases=[SOFT, {"E": 1.}]), "phase 1: has no `nu`", "`thickness`")

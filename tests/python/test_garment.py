@@ -1,23 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Cells laid over a mesh of one's own: an OBJ is up-sampled as the sheet that it is."""
-import pathlib
 import unittest
 
 import numpy
 
 import homespun
-from with_cell import SIDE, WithCell
-
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-
-
-def write_obj(path, positions, triangles, vt=None):
-    """One vt for each vertex where there are some."""
-    with open(path, "w", encoding="utf-8") as file:
-        file.writelines("v {!r} {!r} {!r}\n".format(*map(float, row)) for row in positions)
-        file.writelines("vt {!r} {!r}\n".format(*map(float, row)) for row in ([] if vt is None else vt))
-        for corners in triangles + 1:
-            file.write("f " + " ".join(f"{k}" if vt is None else f"{k}/{k}" for k in corners) + "\n")
+from with_cell import SIDE, SOURCE, WithCell, write_obj
 
 
 class Garments(WithCell):
@@ -95,8 +83,9 @@ class Garments(WithCell):
 
     def test_refusals(self):
         self.refused(lambda: homespun.Garment(self.cell, "nowhere.obj"), "nowhere.obj")
-        for unit in (0., -1., numpy.nan):
-            self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=unit), "unit: found")
+        for unit in (0., -1e-9, numpy.nan):
+            self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=unit),
+                         f"unit: found {unit}; expected metres per unit")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, origin=[0.]), "origin: found")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, angle=numpy.nan), "angle")
         bent = self.folder / "bent.obj"
@@ -107,6 +96,11 @@ class Garments(WithCell):
                      "most max_triangles = 10000000", "is it in metres?")
         self.refused(lambda: homespun.Garment(self.cell, self.rest, self.sheet.coarse_triangles,
                                               max_triangles=10), "max_triangles = 10:")
+        self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1e12),
+                     f"cells: 2.5e+25 of {len(self.cell.triangles)} triangles would be a fine mesh")
+        for origin in (1e15, -1e30, 1e300, 1e308):
+            self.refused(lambda: homespun.Garment(self.cell, self.obj, origin=(origin, 0.)),
+                         "cells from the origin of the cells; expected at most 1e9")
         upsampler = homespun.Upsampler(self.cell, homespun.Garment(self.cell, self.obj))
         self.refused(lambda: upsampler.upsample(self.moved[1:]), f"expected {len(self.moved)}")
 

@@ -68,6 +68,12 @@ class Cells(WithCell):
         self.refused(lambda: homespun.Sheet(self.cell, 60000, 60000),
                      f"3600000000 of {each} triangles would be a fine mesh of {3600000000 * each}",
                      "at most max_triangles = 10000000")
+        self.refused(lambda: homespun.Sheet(self.cell, 2**40, 2), "cells: 2199023255552 of")
+        self.refused(lambda: homespun.Sheet(self.cell, 2**62, 2**62), "cells: 2.12676479325587e+37 of")
+        self.refused(lambda: homespun.Sheet(self.cell, -2**40, 2), "n1: found -1099511627776; exp")
+        for most in (0, -1, 2**31, 2**62):
+            self.refused(lambda: homespun.Sheet(self.cell, 60000, 60000, max_triangles=most),
+                         f"max_triangles: found {most}; expected 1 to 715827882")
         homespun.Sheet(self.cell, 2, 3, max_triangles=6 * each)
         self.refused(lambda: homespun.Sheet(self.cell, 2, 3, max_triangles=6 * each - 1), "raise max")
 
