@@ -8,12 +8,14 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 import typing
+import warnings
 
 import numpy
 
@@ -64,7 +66,7 @@ def program() -> str:
 def _run(words: Sequence[object], shown: typing.TextIO | None) -> None:
     """Runs a command of the program; its faults are exceptions.
 
-    shown: where its progress goes, or None
+    shown: where what it says goes while it runs, or None
     """
     faults: list[str] = []
     with subprocess.Popen([program(), *map(str, words)], stdout=subprocess.DEVNULL,
@@ -83,6 +85,12 @@ def _run(words: Sequence[object], shown: typing.TextIO | None) -> None:
             raise
     if shown and shown.isatty():
         print("\r\033[K", end="", file=shown, flush=True)
+    if process.returncode < 0:
+        name = signal.strsignal(-process.returncode)
+        why = ": is there enough memory?" if process.returncode == -signal.SIGKILL else ""
+        raise RuntimeError("\n".join([
+            f"homespun {words[0]} was killed by signal {-process.returncode} ({name}){why}",
+            *(line.rstrip() for line in faults)]))
     if process.returncode not in ENDED:
         kind = {2: BadInput, 3: NotConverged}.get(process.returncode, RuntimeError)
         said = re.split(r"(?m)^homespun: ", "".join(faults))  # in front of it stand notes
@@ -114,6 +122,11 @@ def study(cell: str | os.PathLike[str], *, loads: Iterable[str] | None = None,
             words += [name, ",".join(map(str, values))]
     _run(["strain", cell, *words], sys.stderr)
     return Study(folder)
+
+
+def _notes_of(folder: pathlib.Path) -> list[str]:
+    study = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    return list(map(str, study["notes"]))
 
 
 class Study:
@@ -192,6 +205,8 @@ class Study:
         positions: {(load, strain, law): (n, 2) or (n, 3) [m]}, of some or all levels
         name: what the method is called
         seconds: {level: run time} of the method, where it is known
+
+        What the program notes of the positions, such as too few digits, is a warning.
         """
         output = self.folder.parent / f"{self.folder.name}-{name}"
         words = ["--name", name, "--output", output, "--quiet", "--no-report"]
@@ -211,13 +226,17 @@ class Study:
                     rows.writerow([load, repr(float(strain)), law, path,
                                    (seconds or {}).get((load, strain, law), "")])
             _run(["judge", self.folder, table, *words], None)
+            _, *notes = _notes_of(output)[len(_notes_of(self.folder)):]  # the first is on the bar
+            for note in notes:
+                warnings.warn(note.replace(f"{folder}/", ""), stacklevel=2)
         return Judged(output, name)
 
     def judge_method(self, method: Method, name: str, *, periodic: Method | None = None,
                      repeats: int = 5) -> Judged:
         """Calls a method at every level, times it and judges what it gives.
 
-        method: f(coarse positions) -> fine positions, of the mesh `sheet`
+        method: f(coarse positions) -> fine positions, of the mesh `sheet`; what it is given is
+        read-only, what it gives is copied
         periodic: the same of the mesh `periodic`; None: infinite cloth is left out
         repeats: calls of which a run time is the median; none begins after ten seconds
         """
@@ -229,10 +248,12 @@ class Study:
         for n_done, (level, its) in enumerate(levels):
             _draw_bar(n_done, len(levels), f"{name}: {level.load}, {level.law}, {level.strain:g}")
             coarse, times = self.coarse(*level), list[float]()
+            coarse.flags.writeable = False  # else a call could move what the next one starts from
             while len(times) < repeats and sum(times) < MOST_SECONDS:
                 begin = time.perf_counter()
-                fine[level] = its(coarse)
+                found = its(coarse)
                 times.append(time.perf_counter() - begin)
+            fine[level] = numpy.array(found)  # whose memory the next level may be written into
             seconds[level], calls = statistics.median(times), min(calls, len(times))
         _draw_bar(len(levels), len(levels), "")
         print(f"{name}: {len(levels)} levels, run times are medians of {calls} calls",

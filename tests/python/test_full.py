@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Methods on one's own coarse positions: the same bits by `strain`, `upsample` and Python."""
 import os
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
 
@@ -12,10 +10,7 @@ import h5py
 import numpy
 
 import homespun
-
-BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-CELLS = SOURCE / "meshes/cells"
+from with_cell import BUILD, CELLS, SOURCE, WithFolder, write_obj
 
 sys.path.append(str(SOURCE / "verification/report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -28,35 +23,26 @@ def run(*arguments, status=(0,)):
     return result.stderr
 
 
-def write_obj(path, vertices, triangles):
-    path.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()) +
-                    "".join("f {} {} {}\n".format(*t) for t in triangles + 1), encoding="utf-8")
-
-
-class Methods(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+class Methods(WithFolder):
+    def kept(self, name, law, method):
+        """Cell, coarse positions and what the study makes of them: strip-1 at 1 %, 4 x 4 cells."""
+        output = self.folder / f"{name}-{law}"
+        run("strain", CELLS / f"{name}.prm", "--cells", 4, "--loads", "strip-1", "--strains", 0.01,
+            "--references", law, "--methods", f"affine,{method}", "--no-budget",
+            "--no-runtime", "--no-report", "--keep", "--quiet", "--output", output, status=(0, 1, 4))
+        with h5py.File(output / name / "fields-strip-1.h5") as file:
+            self.assertEqual(file.attrs["method"].decode(), method)
+            fine = file["upsampled"][:]
+        with h5py.File(output / name / "positions" / f"strip-1-{law}-0.01.h5") as file:
+            return homespun.Cell.read(output / name / "cell.h5"), file["coarse"][:], fine
 
     def test_from_kept_coarse_positions_come_the_fine_ones_of_the_study_to_the_last_bit(self):
         # Of layered quadratic modes, of the weave those that the study has fitted.
-        method = "localized+modes"
-        for name, law in (("layered", "biot"), ("plain-weave-straight", "yarn")):
-            output = self.folder / name
-            run("strain", CELLS / f"{name}.prm", "--cells", 4, "--loads", "strip-1", "--strains",
-                0.01, "--references", law, "--methods", f"affine,localized,{method}", "--no-budget",
-                "--no-runtime", "--no-report", "--keep", "--quiet", "--output", output,
-                status=(0, 1, 4))
-            cell = homespun.Cell.read(output / name / "cell.h5")
-            with h5py.File(output / name / "fields-strip-1.h5") as file:
-                self.assertEqual(file.attrs["method"].decode(), method)
-                expected = file["upsampled"][:]
-            with h5py.File(output / name / "positions" / f"strip-1-{law}-0.01.h5") as file:
-                coarse = file["coarse"][:]
-            sheet = homespun.Sheet(cell, 4, 4)
-            upsampler = homespun.Upsampler(cell, sheet, method=method)
+        for name, law, method in (("layered", "biot", "localized+modes"),
+                                  ("layered", "green", "localized"),
+                                  ("plain-weave-straight", "yarn", "localized+modes")):
+            cell, coarse, expected = self.kept(name, law, method)
+            upsampler = homespun.Upsampler(cell, homespun.Sheet(cell, 4, 4), method=method)
             fine = upsampler.upsample(coarse)
             self.assertEqual((fine.dtype, fine.shape), (numpy.float64, expected.shape))
             numpy.testing.assert_array_equal(fine, expected)
@@ -64,6 +50,16 @@ class Methods(unittest.TestCase):
             in_space = upsampler.upsample(numpy.column_stack([coarse, 0. * coarse[:, 0]]))
             self.assertLess(numpy.abs(in_space[:, :2] - expected).max(),
                             8 * 2.**-24 * numpy.abs(expected).max())
+
+    def test_under_the_linear_law_a_study_does_not_turn_cells_and_python_does(self):
+        cell, coarse, expected = self.kept("layered", "linear", "localized")
+        sheet = homespun.Sheet(cell, 4, 4)
+        fine = homespun.Upsampler(cell, sheet, method="localized").upsample(coarse)
+        distance = numpy.abs(fine - expected).max()
+        # Second order in strain of what first order adds to the coarse motion.
+        added = numpy.abs(fine - homespun.Upsampler(cell, sheet, method="affine").upsample(coarse)).max()
+        self.assertGreater(distance, 0.001 * added)
+        self.assertLess(distance, 0.02 * added)
 
     def test_upsample_and_python_give_the_same_bits_in_space(self):
         run("homogenize", CELLS / "three-stiffness.prm", "--no-bars", "--quiet", "--output",

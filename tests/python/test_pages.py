@@ -4,14 +4,12 @@ import importlib.util
 import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-FENCE = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
+from with_cell import SOURCE, shown_in
 
 
 class Shown(unittest.TestCase):
@@ -25,7 +23,7 @@ class Shown(unittest.TestCase):
     def test_the_page_up_samples_a_skirt_and_moves_a_cloth(self):
         text = (SOURCE / "python/README.md").read_text(encoding="utf-8")
         page, _ = text.split("## How good is my own method?")
-        garment, cloth = FENCE.findall(page)
+        garment, cloth = shown_in(page)
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
             # The page begins in the checkout; pictures go elsewhere.
             os.symlink(SOURCE / "meshes", pathlib.Path(folder, "meshes"))
@@ -34,6 +32,17 @@ class Shown(unittest.TestCase):
             self.assertGreater(int(said[0]), 100_000)
             self.assertAlmostEqual(float(said[1]), 0.2, 2)
             self.assertGreater(pathlib.Path(folder, "skirt.png").stat().st_size, 100_000)
+
+    def test_the_page_judges_a_method(self):
+        text = (SOURCE / "python/README.md").read_text(encoding="utf-8")
+        (code,) = shown_in(text.split("## How good is my own method?")[1])
+        with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
+            os.symlink(SOURCE / "meshes", pathlib.Path(folder, "meshes"))
+            said = self.run_python("import homespun\nimport numpy\n" + code, folder)
+            self.assertRegex(said, r"(?m)^mine: error in 1/1000 of strain x cell side")
+            page = pathlib.Path(folder, said.splitlines()[-1])
+            self.assertEqual(page.name, "report.html")
+            self.assertIn("mine", page.read_text(encoding="utf-8"))
 
     def test_the_notebook_runs_from_cell_to_cell(self):
         notebook = json.loads((SOURCE / "python/tour.ipynb").read_text(encoding="utf-8"))

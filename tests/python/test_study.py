@@ -2,19 +2,16 @@
 """Studies from Python: the program's numbers for somebody's own method, its messages as errors."""
 import contextlib
 import io
-import os
-import pathlib
 import subprocess
-import tempfile
+import sys
 import unittest
+import unittest.mock
+import warnings
 
 import numpy
 
 import homespun
-from with_cell import Refusing
-
-BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
-CELLS = pathlib.Path(__file__).resolve().parents[2] / "meshes" / "cells"
+from with_cell import BUILD, CELLS, WithFolder
 
 
 def carried(mesh):
@@ -31,12 +28,10 @@ def carried(mesh):
     return lambda coarse: numpy.einsum("nk,nkc->nc", shares, coarse[triangles[of]])
 
 
-class Studies(Refusing):
+class Studies(WithFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        super().setUpClass()
         cls.said = io.StringIO()
         with contextlib.redirect_stderr(cls.said):
             cls.run_ = cls.study()
@@ -104,6 +99,30 @@ class Studies(Refusing):
         self.assertIn("flat: error in 1/1000 of strain x cell side", text)
         self.assertEqual(len(text.splitlines()), 5)
 
+    def test_what_a_method_gives_is_its_level_s_even_if_it_gives_one_array_again(self):
+        run, out = self.run_, numpy.empty_like(self.run_.rest)
+        carry = carried(run.sheet)
+
+        def in_place(coarse):
+            out[:] = carry(coarse)
+            return out
+
+        def names(judged):
+            return [name for name in judged.rows.dtype.names if name not in ("method",
+                                                                           "seconds_method")]
+
+        fresh, again = (run.judge_method(method, name) for method, name in
+                        ((carry, "fresh"), (in_place, "again")))
+        self.assertEqual(len(fresh.rows), 2)
+        for name in names(fresh):
+            numpy.testing.assert_array_equal(fresh.rows[name], again.rows[name], err_msg=name)
+
+        def spoiling(coarse):
+            coarse -= run.sheet.coarse_rest
+            return carry(coarse)
+
+        self.refused(lambda: run.judge_method(spoiling, "spoiling"), "read-only")
+
     def test_ranks_count_the_methods_that_are_closer(self):
         run, level = self.run_, ("strip-1", 0.1, "biot")
         table = homespun.results(run.folder)["strain"]
@@ -113,6 +132,33 @@ class Studies(Refusing):
         for shift, rank in ((0.0, 1), (between, 2), (4.0 * between, 3)):
             judged = run.judge({level: run.reference(*level) + shift}, "shifted")
             self.assertEqual(judged.ranks.tolist(), [rank])
+
+    def test_what_the_program_notes_of_positions_is_a_warning(self):
+        run, level = self.run_, ("strip-1", 0.1, "biot")
+        close = run.reference(*level) + [1e-9, 0.0]
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            run.judge({level: close}, "fine")
+            self.assertEqual(caught, [])
+            run.judge({level: close.astype("f4")}, "single")
+        (said,) = caught
+        self.assertRegex(str(said.message), r"^strip-1-biot-0\.1\.npy: its numbers tell .* m apart;")
+        self.assertEqual(said.filename, __file__)
+
+    def test_a_program_that_is_killed_is_told_from_one_that_ends(self):
+        program = self.folder / "program"
+        module = sys.modules[homespun.Study.__module__]
+        for does, kind, *texts in (
+                ("echo 'homespun: note' >&2; kill -9 $$", RuntimeError,
+                 "homespun judge was killed by signal 9 (Killed): is there enough memory?",
+                 "homespun: note"),
+                ("kill -11 $$", RuntimeError, "homespun judge was killed by signal 11 (Segm"),
+                ("echo 'homespun: no' >&2; exit 3", homespun.NotConverged, "no"),
+                ("exit 7", RuntimeError, "homespun judge ended with status 7")):
+            program.write_text(f"#!/bin/sh\n{does}\n", encoding="utf-8")
+            program.chmod(0o755)
+            with unittest.mock.patch.object(module, "program", lambda: str(program)):
+                self.refused(lambda: self.run_.judge({}, "mine"), *texts, kind=kind)
 
     def test_faults_are_the_messages_of_the_program(self):
         run, level = self.run_, ("strip-1", 0.1, "biot")
