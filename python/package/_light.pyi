@@ -60,7 +60,7 @@ class BracketedCell(Cell):
 
 class Sheet:
     def __init__(
-        self, cell: Cell, n1: int, n2: int, *, max_triangles: int = 10_000_000
+        self, cell: Cell, n1: int, n2: int, *, max_triangles: int = ...
     ) -> None: ...
     @property
     def vertices(self) -> NDArray[numpy.float64]: ...
@@ -80,10 +80,10 @@ class Garment:
         cell: Cell,
         file: str | os.PathLike[str],
         *,
-        unit: float = 1.0,
-        origin: ArrayLike = (0.0, 0.0),
-        angle: float = 0.0,
-        max_triangles: int = 10_000_000,
+        unit: float = ...,
+        origin: ArrayLike = ...,
+        angle: float = ...,
+        max_triangles: int = ...,
     ) -> None: ...
     @overload
     def __init__(
@@ -92,9 +92,9 @@ class Garment:
         rest: ArrayLike,
         triangles: ArrayLike,
         *,
-        origin: ArrayLike = (0.0, 0.0),
-        angle: float = 0.0,
-        max_triangles: int = 10_000_000,
+        origin: ArrayLike = ...,
+        angle: float = ...,
+        max_triangles: int = ...,
     ) -> None: ...
     @property
     def vertices(self) -> NDArray[numpy.float64]: ...
@@ -114,16 +114,16 @@ class Cloth:
         rest: ArrayLike,
         triangles: ArrayLike,
         *,
-        positions: ArrayLike | None = None,
-        held: ArrayLike = (),
-        gravity: ArrayLike = (0.0, 0.0, -9.81),
-        damping: float = 0.0,
-        viscosity: float = 0.0,
-        bending: bool = False,
-        integrator: str = "linearly implicit",
+        positions: ArrayLike | None = ...,
+        held: ArrayLike = ...,
+        gravity: ArrayLike = ...,
+        damping: float = ...,
+        viscosity: float = ...,
+        bending: bool = ...,
+        integrator: str = ...,
     ) -> None: ...
     def step(self, h: float) -> None: ...
-    def solve_equilibrium(self, tolerance: float = 1e-8) -> None: ...
+    def solve_equilibrium(self, tolerance: float = ...) -> None: ...
     def prescribe(self, vertex: int, position: ArrayLike) -> None: ...
     @property
     def positions(self) -> NDArray[numpy.float64]: ...
@@ -145,19 +145,19 @@ class Upsampler:
         cell: Cell,
         sheet: Sheet,
         *,
-        method: str = "localized",
-        held: Sequence[str] | None = None,
-        has_slip: bool = False,
+        method: str = ...,
+        held: Sequence[str] | None = ...,
+        has_slip: bool = ...,
     ) -> None: ...
     @overload
-    def __init__(self, cell: Cell, garment: Garment, *, method: str = "localized") -> None: ...
+    def __init__(self, cell: Cell, garment: Garment, *, method: str = ...) -> None: ...
     @property
     def n_fine(self) -> int: ...
     @property
     def n_coarse(self) -> int: ...
     @property
     def terms(self) -> list[str]: ...
-    def upsample(self, positions: ArrayLike, out: NDArray[Any] | None = None) -> NDArray[Any]: ...
+    def upsample(self, positions: ArrayLike, out: NDArray[Any] | None = ...) -> NDArray[Any]: ...
 
 def read_positions(file: str | os.PathLike[str]) -> NDArray[numpy.float64]: ...
 def fault_of_format(path: str, found: int | str) -> str: ...

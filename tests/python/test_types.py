@@ -13,10 +13,10 @@ import tempfile
 import types
 import unittest
 
-PACKAGE = pathlib.Path(os.environ["HOMESPUN_BUILD"]) / "python/homespun"
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+from with_cell import BUILD, SOURCE, shown_in
+
+PACKAGE = BUILD / "python/homespun"
 MODULES = ["_light", "_fem"] if list(PACKAGE.glob("_fem*.so")) else ["_light"]
-FENCE = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 PAGES = ["README.md", "guides/simulation.md", "python/README.md"]
 
 
@@ -102,6 +102,15 @@ class Stubs(unittest.TestCase):
                          [[("vertex", "plain", False), ("position", "plain", False)]])
         self.assertIn(("held", "keyword", True), light["Cloth.__init__"][0])
 
+    def test_a_default_stands_in_the_module_and_not_once_more_in_its_stub(self):
+        for name in MODULES:
+            tree = ast.parse((PACKAGE / f"{name}.pyi").read_text(encoding="utf-8"))
+            defaults = [ast.unparse(one) for node in ast.walk(tree)
+                        if isinstance(node, ast.FunctionDef)
+                        for one in (*node.args.defaults, *node.args.kw_defaults) if one]
+            self.assertEqual(set(defaults), {"..."} & set(defaults))
+            self.assertEqual(bool(defaults), name == "_light")
+
 
 @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
 class Checked(unittest.TestCase):
@@ -116,7 +125,7 @@ class Checked(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
             shown = []
             for page in PAGES:
-                text = "".join(FENCE.findall((SOURCE / page).read_text(encoding="utf-8")))
+                text = "".join(shown_in(SOURCE / page))
                 self.assertIn("import homespun", text, page)
                 shown.append(pathlib.Path(folder, re.sub(r"\W", "_", page) + ".py"))
                 shown[-1].write_text(text, encoding="utf-8")
