@@ -134,7 +134,11 @@ def compare(path, folder):
     training = [(coarse[:N_TRAINING], fine[:N_TRAINING]) for coarse, fine in pairs]
     trained = {PAIRS[0]: training[0],
                "both pairs": tuple(numpy.concatenate(both) for both in zip(*training))}
-    bounds = {on: pod(mesh.rest, fine) for on, (_, fine) in trained.items()}
+    waves_tested = {pair: list(zip(coarse[N_TRAINING:], fine[N_TRAINING:]))
+                    for pair, (coarse, fine) in zip(PAIRS, pairs)}
+    waves_away = {(pair, on): numpy.mean([outside(mesh.rest, fine, one) for _, one in tested])
+                  for pair, tested in waves_tested.items() for on, (_, fine) in trained.items()}
+    nearest = {on: pod(mesh.rest, fine) for on, (_, fine) in trained.items()}
     rows = []
 
     def add(tested, law, strain, method, on="", away="", error="", bar="", seconds=""):
@@ -151,26 +155,24 @@ def compare(path, folder):
             unit = row["strain"] * side
             away = outside(mesh.rest, trained[on][1], run.reference(*level)) if on else ""
             add(level[0], level[2], level[1], name, on, away, row["error_mean_m"] / unit,
-                row["error_bar_m"] / unit, "" if name == "pod_bound" else row["seconds_method"])
+                row["error_bar_m"] / unit, "" if name == "pod" else row["seconds_method"])
 
     methods = peers(mesh, trained)
     for name in METHODS:
         add_table(homespun.results(run.folder)["strain"], name)
     for (name, on), method in methods.items():
         add_table(run.judge_method(method, name).rows, name, on)
-    for on, closest in bounds.items():
-        add_table(run.judge({level: closest(run.reference(*level)) for level in run.levels},
-                            "pod_bound").rows, "pod_bound", on)
+    for on, its in nearest.items():
+        add_table(run.judge({level: its(run.reference(*level)) for level in run.levels},
+                            "pod").rows, "pod", on)
     methods["localized", ""] = localized(run)
-    for pair, (coarse, fine) in zip(PAIRS, pairs):
-        tested = list(zip(coarse[N_TRAINING:], fine[N_TRAINING:]))
+    for pair, tested in waves_tested.items():
         for (name, on), method in [*methods.items(),
-                                   *((("pod_bound", on), None) for on in bounds)]:
-            away = [outside(mesh.rest, trained[on][1], one) for _, one in tested] if on else [0.0]
-            found = [bounds[on](one) if method is None else method(its) for its, one in tested]
+                                   *((("pod", on), None) for on in nearest)]:
+            found = [nearest[on](one) if method is None else method(its) for its, one in tested]
             distance = [numpy.linalg.norm(up - one, axis=1).mean() / (1e-3 * side)
                         for up, (_, one) in zip(found, tested)]
-            add(f"waves {pair}", "linear", 1e-3, name, on, numpy.mean(away) if on else "",
+            add(f"waves {pair}", "linear", 1e-3, name, on, waves_away.get((pair, on), ""),
                 numpy.mean(distance))
     return rows
 

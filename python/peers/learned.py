@@ -5,8 +5,8 @@ and Sloan, *Physics-Inspired Upsampling for Cloth Simulation in Games*, 2011.
 What the flat surface lacks at a fine vertex is, component by component, a weighted sum of both
 components of the displacements of coarse vertices near it, relative to the nearest one, so that a
 translation is kept. The weights are least squares over the training frames, drawn to zero as
-strongly as a quarter of the frames, left out at first, are met best; the paper draws them to
-harmonic functions.
+strongly as a quarter of the frames, left out at first, are met best (ridge regression); the paper
+draws them to harmonic functions instead.
 """
 import numpy
 

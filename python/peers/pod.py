@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Proper orthogonal decomposition of the whole sheet, as a bound: the best that any sum of the
-training frames comes to, found with the answer at hand. No method whose fine positions are such
-sums is closer; none is a method, because it knows no answer.
+"""Proper orthogonal decomposition of the whole sheet: the sum of training frames that is nearest to
+the reference in the mean square. It is no method, because it is found with the reference at hand,
+and a bound only on methods whose fine positions are such sums, in that norm.
 """
 import numpy
 
@@ -15,6 +15,6 @@ def modes(rest, fine, smallest=1e-10):
 
 
 def pod(rest, fine):
-    """closest(reference) -> the positions nearest to it, in the square, among sums of frames."""
+    """nearest(reference) -> the positions nearest to it, in the mean square, among sums of frames."""
     basis = modes(rest, fine)
     return lambda reference: rest + (basis.T @ (basis @ (reference - rest).ravel())).reshape(-1, 2)

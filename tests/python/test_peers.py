@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
 """The peers: what each must do whatever the cell, and that nothing is tested that was trained on."""
 import contextlib
+import csv
 import io
-import pathlib
 import sys
-import tempfile
 import unittest
+from unittest import mock
 
 import numpy
 
 import homespun
+from with_cell import CELLS, SOURCE, WithFolder
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-CELL = SOURCE / "meshes" / "cells" / "layered.prm"
+CELL = CELLS / "layered.prm"
 sys.path.insert(0, str(SOURCE / "python" / "peers"))
 
 # pylint: disable=wrong-import-position
@@ -26,14 +26,13 @@ from training import equilibrium, stiffness_of  # noqa: E402
 LEVEL = ("strip-1", 0.01, "linear")
 
 
-class Peers(unittest.TestCase):
+class Peers(WithFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
-        cls.addClassCleanup(folder.cleanup)
+        super().setUpClass()
         with contextlib.redirect_stderr(io.StringIO()):
             cls.study = homespun.study(CELL, loads=["strip-1"], strains=[0.01], laws=["linear"],
-                                       methods=["affine"], cells=4, output=folder.name + "/study")
+                                       methods=["affine"], cells=4, output=cls.folder / "study")
         cls.mesh = cls.study.sheet
         cls.stiffness = compare.phases_of(CELL)
         cls.coarse, cls.fine = compare.frames(cls.study, cls.stiffness, 0, 24)
@@ -115,6 +114,43 @@ class Peers(unittest.TestCase):
                 compare.outside(rest, training, one)
         for one in (*self.fine[20:], self.study.reference(*LEVEL)):
             self.assertGreater(compare.outside(rest, training, one), 1e-3)
+
+    def test_the_table_of_a_small_sheet_is_whole_and_refuses_what_was_trained_on(self):
+        table, frames = self.folder / "peers.csv", compare.frames
+        table.write_text(",".join(compare.COLUMNS) + "\nother" + "," * (len(compare.COLUMNS) - 1) + "\n",
+                         encoding="utf-8")
+        methods = ("affine", "localized")
+        with mock.patch.multiple(compare, CELLS=4, LOADS=("strip-1",), METHODS=methods,
+                                 N_TRAINING=12, N_TESTED=4), \
+                contextlib.redirect_stderr(io.StringIO()):
+            compare.main(CELL, table, self.folder)
+
+            def planted(run, stiffness, axis, n):
+                coarse, fine = frames(run, stiffness, axis, n)
+                fine[compare.N_TRAINING + 3] = fine[5]
+                return coarse, fine
+
+            before = table.read_text(encoding="utf-8")
+            with mock.patch.object(compare, "frames", planted), \
+                    self.assertRaisesRegex(homespun.BadInput, "is a training frame"):
+                compare.main(CELL, table, self.folder)
+            self.assertEqual(table.read_text(encoding="utf-8"), before)
+        with open(table, newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["cell"] != "other"]
+        trained = [(name, on) for name in ("learned_8", "learned_32", "pod")
+                   for on in ("left and right", "both pairs")]
+        peers = [("flat", ""), ("smooth", ""), *trained]
+        of_sheets = {("strip-1", law, method, on) for law in ("linear", "biot")
+                     for method, on in [*peers, *((name, "") for name in methods)]}
+        of_waves = {(f"waves {pair}", "linear", method, on) for pair in compare.PAIRS
+                    for method, on in [*peers, ("localized", "")]}
+        self.assertEqual(len(rows), len(of_sheets | of_waves))
+        self.assertEqual({(row["tested"], row["law"], row["method"], row["trained_on"])
+                          for row in rows}, of_sheets | of_waves)
+        for row in rows:
+            self.assertGreater(float(row["error"]), 0.0)
+            self.assertEqual(bool(row["error_bar"]), row["tested"] == "strip-1")
+            self.assertEqual(bool(row["outside_training"]), (row["method"], row["trained_on"]) in trained)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Draws the errors of other methods beside homespun's, the picture of guides/own-method.md:
+"""Draws the errors of other methods beside homespun's under the linear law, the picture of
+guides/own-method.md:
 
     draw_peers.py peers.csv > docs/pictures/peers.svg
 """
@@ -16,9 +17,11 @@ from figures import style  # noqa: E402
 
 style.use()  # before anything draws
 
+import numpy  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
 from page.gallery import short_svg  # noqa: E402
+from peers_section import cases, is_nearer  # noqa: E402
 
 TESTED = {"strip-1": "strip-1", "strip-2": "strip-2", "shear-frame": "shear\nframe",
           "waves left and right": "waves\nleft, right", "waves below and above": "waves\nbelow, above"}
@@ -27,32 +30,49 @@ METHODS = (  # method, trained on, what it is called, marker, colour, filled
     ("learned_32", "left and right", "learned, 32 weights, clamped left and right", "v",
      style.PURPLE, "full"),
     ("learned_32", "both pairs", "learned, 32 weights, both pairs of clamps", "D", style.SKY, "full"),
-    ("pod_bound", "both pairs", "bound: best sum of both pairs' frames", "D", style.SKY, "none"),
+    ("pod", "both pairs", "nearest sum of both pairs' frames (POD, no method)", "D", style.SKY, "none"),
     ("localized", "", "localized (the paper's method)", "^", style.BLUE, "full"),
     ("full", "", "full", "o", style.BLACK, "full"))
 
 
+def points_of(its_cases, k):
+    """(x, error, bar, whether it is a peer that is nearer than `full`) of a method, one by one."""
+    method, on, *_ = METHODS[k]
+    for place, tested in enumerate(TESTED):
+        its = its_cases[tested]
+        if (method, on) in its:
+            row, full = its[method, on], its.get(("full", ""))
+            yield (place + 0.11 * (k - 2.5), float(row["error"]), float(row["error_bar"] or "nan"),
+                   method.startswith("learned") and full is not None and is_nearer(row, full))
+
+
 def figure(rows):
     """A panel per cell: what was tested along x, errors along y."""
-    cells = list(dict.fromkeys(row["cell"] for row in rows))
-    drawn, axes = pyplot.subplots(2, 2, figsize=(9.0, 6.4), sharex=True, sharey=True)
+    linear = [one for one in cases(rows) if one[2] == "linear"]
+    cells = list(dict.fromkeys(cell for cell, *_ in linear))
+    drawn, axes = pyplot.subplots(2, 2, figsize=(9.0, 6.6), sharex=True, sharey=True)
+    ring, rings = {"linestyle": "none", "marker": "o", "markersize": 13, "fillstyle": "none",
+                   "color": style.BLACK}, []
     for axis, cell in zip(axes.flat, cells):
-        for k, (method, on, label, marker, colour, fill) in enumerate(METHODS):
-            points = [(place + 0.11 * (k - 2.5), float(row["error"])) for place, tested
-                      in enumerate(TESTED) for row in rows
-                      if (row["cell"], row["tested"], row["law"], row["method"],
-                          row["trained_on"]) == (cell, tested, "linear", method, on)]
-            axis.plot(*zip(*points), linestyle="none", marker=marker, color=colour, fillstyle=fill,
-                      label=label)
+        its_cases = {tested: its for of, tested, _, its in linear if of == cell}
+        for k, (_, _, label, marker, colour, fill) in enumerate(METHODS):
+            x, error, bar, is_ringed = map(numpy.array, zip(*points_of(its_cases, k)))
+            axis.errorbar(x, error, bar, linestyle="none", marker=marker, color=colour,
+                          fillstyle=fill, elinewidth=0.8, label=label)
+            rings += axis.plot(x[is_ringed], error[is_ringed], **ring) if is_ringed.any() else []
         axis.set_yscale("log")
         axis.set_title(cell)
         axis.set_xticks(range(len(TESTED)), TESTED.values())
         axis.grid(axis="y", alpha=0.3)
     for axis in axes[:, 0]:
         axis.set_ylabel("error, 1/1000 of strain x cell side")
-    drawn.legend(*axes.flat[0].get_legend_handles_labels(), loc="lower center", ncol=2,
-                 frameon=False)
-    drawn.tight_layout(rect=(0.0, 0.12, 1.0, 1.0))
+    n = sum(len(one.get_xdata()) for one in rings)
+    n_cases = sum(("full", "") in its for *_, its in linear)
+    handles, labels = axes.flat[0].get_legend_handles_labels()
+    drawn.legend([*handles, pyplot.Line2D([], [], **{**ring, "markersize": 9})],
+                 [*labels, f"learned and nearer than full by more than both bars: {n} of {n_cases}"],
+                 loc="lower center", ncol=2, frameon=False)
+    drawn.tight_layout(rect=(0.0, 0.15, 1.0, 1.0))
     return drawn
 
 

@@ -12,6 +12,7 @@ import sys
 from statistics import median
 
 from make import names_of, variants
+from numbers_of_page import LETTERS, UNBROKEN, table, three, with_bar
 from peers_section import section
 from readme_numbers import read_tables
 
@@ -62,7 +63,6 @@ the reference than the coarse mesh alone. A cell that is the same along both axe
 """
 HEADING = "gain of"
 NOT_RUN = "Not run yet at this size:"
-UNBROKEN = "\u00a0"  # a space at which no line ends
 METHODS = (("affine", "coarse mesh alone"), ("base", "base"), ("localized", "paper"),
            ("full", "`full`"))
 GAINS = {
@@ -71,7 +71,6 @@ GAINS = {
     "gain_total": "both",
     "gain_over_localized": "over paper",
 }
-LETTERS = {"full-micro": "a", "affine+p2": "b"}
 OUTCOMES = {"PASS": "nearer", "FAIL": "farther", "INCONCLUSIVE": "open"}
 UNCONFIRMED = 3.0  # factor of safety of a bar that no convergence supports
 LOSSES = (  # sentence, method, what it is compared with, the claim on it
@@ -81,27 +80,6 @@ LOSSES = (  # sentence, method, what it is compared with, the claim on it
     ("`full` is farther than the paper's method", "full", "localized", "full_against_localized"),
     ("`full` is farther than the coarse mesh alone", "full", "affine", None),
 )
-
-
-def three(text):
-    """A number with three digits; a dash where there is none."""
-    if not text:
-        return "–"
-    value = float(text)
-    digits = f"{value:#.3g}"
-    return f"{value:.0f}" if "e+" in digits else digits.rstrip(".")
-
-
-def with_bar(row, method):
-    """An error and its bar, which has two digits and no more decimals than the error."""
-    if not row[method]:
-        return "–"
-    error, bar = three(row[method]), row[method + "_bar"]
-    if not bar:
-        return error
-    decimals = len(error.partition(".")[2])
-    short = f"{float(f'{float(bar):.2g}'):.{decimals}f}"
-    return f"{error} ± {short if float(short) else f'{float(bar):.1g}'}".replace(" ", UNBROKEN)
 
 
 def percent(text):
@@ -122,15 +100,6 @@ def decided(row):
     if not row["full"]:
         return "not reached"
     return "bars x 3" if float(row["bar_safety"] or 0) >= UNCONFIRMED else "bars"
-
-
-def table(header, rows, texts=2):
-    """A table in Markdown, its numbers to the right.
-
-    @param texts how many columns have none
-    """
-    lines = [header, ["---"] * texts + ["---:"] * (len(header) - texts), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
 def sets(rows):
@@ -258,7 +227,7 @@ def page(tables):
         "*Decided* are the losses that are larger than the sum of both bars; *law* marks rows beyond the"
         " strain at which the law loses ellipticity.\n",
         *lost(rows),
-        *section(tables["peers.csv"], table, three, median),
+        *section(tables["peers.csv"]),
         "## Guaranteed brackets on C^H\n",
         "Width: the largest difference of the two bounds on the energy, over all macro strains, divided by"
         " the upper one. Mesh: the shipped one, or where arcs are drawn the one that resolves them;"

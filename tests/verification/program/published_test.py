@@ -62,25 +62,59 @@ class ReadmeTest(unittest.TestCase):
             self.assertTrue(rows, name)
             self.assertTrue(all(row["run"] and row["revision"] for row in rows), name)
 
-
     def test_no_tested_frame_of_a_peer_is_a_sum_of_frames_that_it_was_trained_on(self):
         rows = read_tables(PUBLISHED)["peers.csv"]
         trained = [row for row in rows if row["trained_on"]]
         self.assertTrue(all(float(row["outside_training"]) > 1e-3 for row in trained))
         self.assertEqual({row["method"] for row in trained},
-                         {"learned_8", "learned_32", "pod_bound"})
+                         {"learned_8", "learned_32", "pod"})
 
-    def test_every_case_in_which_a_peer_is_nearer_is_named(self):
-        def row(cell, method, error, on=""):
+    def test_a_peer_is_nearer_by_more_than_both_bars_or_that_is_open_and_every_case_is_named(self):
+        def row(cell, method, error, bar, on=""):
             return {"cell": cell, "tested": "strip-1", "law": "linear", "method": method,
-                    "trained_on": on, "error": error}
-        rows = [row("dots", "full", "5.0"), row("dots", "localized", "2.0"),
-                row("dots", "smooth", "4.0"), row("dots", "pod_bound", "1.0", "both pairs"),
-                row("net", "full", "5.0"), row("net", "learned_8", "6.0", "both pairs")]
-        self.assertEqual(list(peers_section.winners(rows)), [
-            "A peer is nearer than `full` in 1 of 2 cases:\n",
-            "- `dots`, strip-1, linear: smooth 4; against 5.\n",
-            "A peer is nearer than the paper's method in 0 of 1 cases.\n"])
+                    "trained_on": on, "error": error, "error_bar": bar}
+        rows = [row("dots", "full", "5.0", "1"), row("dots", "localized", "2.5", ""),
+                row("dots", "smooth", "2.9", "1"), row("dots", "flat", "3.1", "1"),
+                row("dots", "pod", "1.0", "0.1", "both pairs"),
+                row("net", "full", "5.0", "0.5"),
+                row("net", "learned_8", "4.4", "0.2", "both pairs"),
+                row("holes", "full", "5.0", "0.5"),
+                row("holes", "learned_8", "5.6", "0.2", "both pairs"),
+                row("twill", "full", "5.0", "0.5"), row("twill", "flat", "5.8", "0.2"),
+                row("twill", "smooth", "5.6", "0.2"), row("knit", "full", "5.0", "0.5"),
+                row("knit", "flat", "5.8", "0.2")]
+        text = "\n".join(peers_section.winners(rows)).replace(results_page.UNBROKEN, " ")
+        full, paper = text.split("Against the paper's method, ")
+        self.assertTrue(full.startswith(
+            "Against `full`, 5 cases have error bars. A peer is nearer by more than the sum of both"
+            " bars in 1 of them; `full` is nearer than every peer, by more than both bars, in 1; 3"
+            " are open."), full)
+        decided, is_open = full.split("A peer is nearer by less than both bars")
+        self.assertIn("- `dots`, strip-1, linear: smooth 2.90 ± 1.00; against 5.00 ± 1.00.\n",
+                      decided)
+        self.assertIn("- `net`, strip-1, linear: learned 8 *all* 4.40 ± 0.20; against 5",
+                      is_open)
+        self.assertNotIn("holes", full)
+        self.assertIn("0 cases have error bars", paper)  # and what has none decides nothing
+        self.assertNotIn("dots", paper)
+
+    def test_the_guides_say_in_how_many_cases_a_peer_is_nearer(self):
+        found = peers_section.outcomes(read_tables(PUBLISHED)["peers.csv"], "full")
+        n = {outcome: len(found[outcome]) for outcome in ("peer", "method", "open")}
+        names = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine",
+                 "ten", "eleven", "twelve")
+        for guide in ("own-method", "findings"):
+            text = " ".join((ROOT / "guides" / f"{guide}.md").read_text(encoding="utf-8").split())
+            self.assertRegex(text, rf"in {names[n['peer']]} of (<!--[^>]*-->)?"
+                                   rf"{sum(n.values())} cases")
+            self.assertIn(f"{names[n['method']]} are decided for `full`", text)
+            for cell in {one[0] for one in found["peer"]}:
+                self.assertRegex(text, rf"in {names[n['peer']]} of .*`{cell}`")
+
+    def test_a_flat_surface_is_affine_written_again(self):
+        for *_, its in peers_section.cases(read_tables(PUBLISHED)["peers.csv"]):
+            if ("affine", "") in its:
+                self.assertEqual(its["affine", ""]["error"], its["flat", ""]["error"])
 
 
 class CheckerTest(unittest.TestCase):
