@@ -6,6 +6,7 @@
 #include "homogenization/lint/conformity.h"
 #include "python/arrays.h"
 #include "python/bracketed_cell.h"
+#include "python/one_at_a_time.h"
 #include "verification/cell/assessed_cell.h"
 #include "verification/cell/cell_edges.h"
 #include "verification/cell/cell_summary.h"
@@ -53,12 +54,16 @@ struct Choices
 /// Whoever else uses MPI in this process may have started it.
 void start_mpi()
 {
-  int is_started = 0;
-  MPI_Initialized(&is_started);
-  if (is_started)
+  int was_started = 0;
+  {
+    const OneAtATime mine;
+    MPI_Initialized(&was_started);
+    int granted = 0;
+    if (!was_started)
+      MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &granted);
+  }
+  if (was_started)
     return;
-  int granted = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &granted);
   py::module_::import("atexit").attr("register")(py::cpp_function(
     []()
     {
@@ -122,7 +127,7 @@ BracketedCell homogenized(const UnitCell &cell, const Choices &choices,
   start_mpi();
   const verification::AssessedCell found = [&]()
   {
-    const py::gil_scoped_release others_run;
+    const OneAtATime mine;
     return assessed(cell, choices);
   }();
   for (const verification::Verdict &check : found.checks)
@@ -147,7 +152,7 @@ BracketedCell homogenize_file(const std::filesystem::path &file, const Choices &
   std::ostringstream warnings;
   const UnitCell cell = [&]()
   {
-    const py::gil_scoped_release others_run;
+    const OneAtATime mine;
     return homogenization::read_unit_cell(file, MPI_COMM_NULL, &warnings);
   }();
   std::istringstream lines(warnings.str());

@@ -5,6 +5,7 @@
 #include "python/arrays.h"
 #include "python/bracketed_cell.h"
 #include "python/light.h"
+#include "python/one_at_a_time.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -103,11 +104,11 @@ void declare_cell(py::module_ &module)
                    "order 11, 22, 12 with engineering shear; SI units.")
     .def_static(
       "read", [](const fs::path &file) { return meshes::read_cell(file); }, py::arg("file"),
-      py::call_guard<py::gil_scoped_release>(),
+      py::call_guard<OneAtATime>(),
       "The cell of a file cell.h5. Raises BadInput naming the file and what is wrong with it.")
     .def(
       "write", [](const Cell &cell, const fs::path &file) { meshes::write_cell(cell, file); },
-      py::arg("file"), py::call_guard<py::gil_scoped_release>(),
+      py::arg("file"), py::call_guard<OneAtATime>(),
       "Writes a file that Cell.read() reads, whole or not at all.")
     .def_property_readonly("vertices",
                            field([](const Cell &cell) -> auto & { return cell.mesh.vertices; }),

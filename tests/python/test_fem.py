@@ -13,7 +13,7 @@ import h5py
 import numpy
 
 import homespun
-from with_cell import BUILD, CELLS, SOURCE, Refusing
+from with_cell import BUILD, CELLS, SOURCE, Refusing, run_in_threads
 
 CELL = CELLS / "layered.prm"
 SOFT = {"E": 1e6, "nu": 0.3, "thickness": 5e-4, "density": 400.}
@@ -65,6 +65,16 @@ class Homogenize(Refusing):
                                               rtol=1e-12)
                 self.assertEqual(bracket.is_of_drawing, name == "hexagonal-dots")
                 self.assertIn("relative width", repr(bracket))
+
+    def test_threads_find_the_same(self):
+        run_in_threads("one = homespun.homogenize(sys.argv[1])\n"
+                       "def work():\n"
+                       "    for _ in range(2):\n"
+                       "        cell = homespun.homogenize(sys.argv[1])\n"
+                       "        assert (cell.stiffness == one.stiffness).all()\n"
+                       "        for name in ('stiffness_bracket', 'bending_bracket'):\n"
+                       "            assert (getattr(cell, name).lower == getattr(one, name).lower).all()",
+                       CELL)
 
     def test_without_bars_the_cell_problems_alone(self):
         cell = homespun.homogenize(CELL, bars=False)

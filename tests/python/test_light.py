@@ -11,7 +11,7 @@ import unittest
 import numpy
 
 import homespun
-from with_cell import WithCell, address
+from with_cell import WithCell, address, run_in_threads
 
 
 class WithPath(os.PathLike):
@@ -57,6 +57,15 @@ class Cells(WithCell):
             os.remove(name)
             numpy.testing.assert_array_equal(again.chi, self.cell.chi)
             numpy.testing.assert_array_equal(again.stiffness, self.cell.stiffness)
+
+    def test_files_may_be_read_and_written_in_many_threads(self):
+        # HDF5 takes one thread at a time.
+        run_in_threads("cell = homespun.Cell.read(sys.argv[1])\n"
+                       "def work():\n"
+                       "    file = f'{sys.argv[1]}-{threading.get_ident()}'\n"
+                       "    for _ in range(200):\n"
+                       "        cell.write(file)\n"
+                       "        assert (homespun.Cell.read(file).chi == cell.chi).all()", self.file)
 
     def test_refusals_have_the_text_of_the_program(self):
         self.refused(lambda: homespun.Cell.read("nowhere.h5"), "nowhere.h5")

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Up-sampling from Python: what goes in, what is refused, and what a frame costs."""
-import subprocess
-import sys
 import tracemalloc
 import unittest
 
 import numpy
 
 import homespun
-from with_cell import SIDE, WithCell, address, turns_of_others, write_obj
+from with_cell import SIDE, WithCell, address, run_in_threads, turns_of_others, write_obj
 
 
 class Upsampling(WithCell):
@@ -115,15 +113,10 @@ class Upsampling(WithCell):
 
     def test_sheets_may_be_made_in_many_threads(self):
         # pybind11 has a list of all objects, which is changed with the interpreter held.
-        code = ("import homespun, sys, threading\n"
-                "cell = homespun.Cell.read(sys.argv[1])\n"
-                "def make():\n"
-                "    for _ in range(20000):\n"
-                "        homespun.Sheet(cell, 1, 1)\n"
-                "threads = [threading.Thread(target=make) for _ in range(8)]\n"
-                "for one in threads: one.start()\n"
-                "for one in threads: one.join()\n")
-        subprocess.run([sys.executable, "-B", "-c", code, self.file], check=True)
+        run_in_threads("cell = homespun.Cell.read(sys.argv[1])\n"
+                       "def work():\n"
+                       "    for _ in range(20000):\n"
+                       "        homespun.Sheet(cell, 1, 1)", self.file, n=8)
 
 if __name__ == "__main__":
     unittest.main()

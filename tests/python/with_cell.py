@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -62,6 +63,18 @@ class WithCell(WithFolder):
         cls.file = cls.folder / "cell.h5"
         subprocess.run([os.environ["HOMESPUN_MAKE_CELL"], cls.file], check=True)
         cls.cell = homespun.Cell.read(cls.file)
+
+
+def run_in_threads(work, *arguments, n=4):
+    """Runs `work()`, defined in lines of code, in threads of a process of its own, which ends well."""
+    code = (f"import homespun, sys, threading\n{work}\nfaults = []\n"
+            "def tell(fault):\n    faults.append(fault)\n    sys.excepthook(*fault[:3])\n"
+            "threading.excepthook = tell\n"
+            f"threads = [threading.Thread(target=work) for _ in range({n})]\n"
+            "for thread in threads: thread.start()\n"
+            "for thread in threads: thread.join()\n"
+            "sys.exit(len(faults))\n")
+    subprocess.run([sys.executable, "-B", "-W", "error", "-c", code, *map(str, arguments)], check=True)
 
 
 def turns_of_others(call):
