@@ -5,7 +5,7 @@
 #include "meshes/files/cell_file.h"
 #include "meshes/files/state_file.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/meshes/plain/shapes.h"
+#include "tests/meshes/plain/plain_cell.h"
 
 #include <array>
 #include <cmath>
@@ -46,13 +46,8 @@ private:
 /// A file that is a cell of 9 vertices, and a checkpoint of 9 vertices too.
 std::vector<std::uint8_t> sound_file()
 {
-  meshes::HomogenizedCell cell;
-  cell.lattice = tests::square_lattice(0.01);
-  cell.mesh    = tests::parallelogram(cell.lattice, 2, 2);
-  cell.chi.setZero(cell.mesh.n_vertices(), 6);
-  cell.stiffness     = Eigen::Vector3d(3., 2., 1.).asDiagonal();
-  cell.areal_density = 0.2;
-  cell.provenance    = "made for the fuzzer";
+  meshes::HomogenizedCell cell = tests::plain_cell(tests::square_lattice(0.01), 2, 2);
+  cell.provenance              = "made for the fuzzer";
   const tests::InputFile of_cell(nullptr, 0, "-cell.h5"), of_state(nullptr, 0, "-state.h5");
   meshes::write_cell(cell, of_cell.name);
   meshes::ClothState state;

@@ -2,6 +2,7 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/errors.h"
 #include "tests/localization/localization_cases.h"
+#include "tests/meshes/plain/plain_cell.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -109,11 +110,8 @@ TEST(exact_upsampler, stripes_stretched_across_follow_the_laminate_exactly)
 {
   // Half hard (10), half soft (1): under a strain e across the stripes the soft half takes 20/11 e
   // and the hard half 2/11 e, so chi_22 is a saw tooth with slopes −9/11 and 9/11.
-  meshes::HomogenizedCell cell;
-  cell.lattice = tests::square_lattice(1.);
-  cell.mesh    = tests::parallelogram(cell.lattice, 4, 4);
-  cell.chi.setZero(cell.mesh.n_vertices(), 6);
-  const auto saw = [](const double y) { return -9. / 11. * (y < 0.5 ? y : 1. - y); };
+  meshes::HomogenizedCell cell = tests::plain_cell(tests::square_lattice(1.), 4, 4);
+  const auto saw               = [](const double y) { return -9. / 11. * (y < 0.5 ? y : 1. - y); };
   for (int v = 0; v < cell.mesh.n_vertices(); ++v)
     cell.chi(v, 3) = saw(cell.mesh.vertices(v, 1));
   const tests::Cloth cloth(cell, 3, 2);

@@ -2,7 +2,7 @@
 #include "meshes/files/cell_file.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/plain/errors.h"
-#include "tests/meshes/plain/shapes.h"
+#include "tests/meshes/plain/plain_cell.h"
 
 #include <gtest/gtest.h>
 
@@ -17,18 +17,14 @@ namespace
 {
 HomogenizedCell some_cell()
 {
-  HomogenizedCell cell;
-  cell.lattice = tests::skewed_lattice();
-  cell.mesh    = tests::parallelogram(cell.lattice, 3, 2);
+  HomogenizedCell cell = tests::plain_cell(tests::skewed_lattice(), 3, 2);
   cell.mesh.material << 0, 1, 0, 1, 0, 1, 2, 2, 2, 2, 0, 0;
-  cell.chi.resize(cell.mesh.n_vertices(), 6);
   for (Eigen::Index k = 0; k < cell.chi.size(); ++k)
     cell.chi.data()[k] = 1e-5 * static_cast<double>(k * k);
   cell.chi.rowwise() -= Eigen::Matrix<double, 1, 6>(cell.chi.row(0));
   cell.stiffness << 5., 1., 0.1, 1., 4., 0.2, 0.1, 0.2, 1.;
-  cell.areal_density = 0.2;
-  cell.provenance    = "made for a test";
-  cell.place_of_cut  = "half of a side away from where it is drawn";
+  cell.provenance   = "made for a test";
+  cell.place_of_cut = "half of a side away from where it is drawn";
   return cell;
 }
 

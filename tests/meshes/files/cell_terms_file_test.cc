@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/cell_file.h"
-#include "tests/meshes/plain/shapes.h"
+#include "tests/meshes/plain/plain_cell.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -12,17 +12,6 @@ using namespace homespun::meshes;
 
 namespace
 {
-HomogenizedCell plain_cell()
-{
-  HomogenizedCell cell;
-  cell.lattice = tests::skewed_lattice();
-  cell.mesh    = tests::parallelogram(cell.lattice, 3, 2);
-  cell.chi.setZero(cell.mesh.n_vertices(), 6);
-  cell.stiffness     = Eigen::Matrix3d::Identity();
-  cell.areal_density = 0.2;
-  return cell;
-}
-
 CellEdges some_edges(const int n_vertices)
 {
   CellEdges edges;
@@ -49,7 +38,7 @@ std::string temporary(const std::string &name)
 
 TEST(exact_cell_terms_file, edges_come_back_as_they_were_written)
 {
-  HomogenizedCell cell   = plain_cell();
+  HomogenizedCell cell   = tests::plain_cell(tests::skewed_lattice(), 3, 2);
   const CellEdges edges  = some_edges(cell.mesh.n_vertices());
   const std::string file = temporary("round-trip.h5");
   cell.edges             = edges;
@@ -71,14 +60,14 @@ TEST(exact_cell_terms_file, edges_come_back_as_they_were_written)
 TEST(exact_cell_terms_file, a_file_without_terms_has_none)
 {
   const std::string file = temporary("without.h5");
-  write_cell(plain_cell(), file);
+  write_cell(tests::plain_cell(tests::skewed_lattice(), 3, 2), file);
   EXPECT_FALSE(read_cell(file).edges.has_value());
   EXPECT_TRUE(read_cell(file).fitted.empty());
 }
 
 TEST(exact_cell_terms_file, fitted_modes_come_back_as_they_were_written)
 {
-  HomogenizedCell cell = plain_cell();
+  HomogenizedCell cell = tests::plain_cell(tests::skewed_lattice(), 3, 2);
   FittedModes &fitted  = cell.fitted["yarn"];
   fitted.low << -0.1, -0.2, -0.3;
   fitted.high << 0.1, 0.2, 0.3;
@@ -103,7 +92,7 @@ TEST(exact_cell_terms_file, fitted_modes_come_back_as_they_were_written)
 
 TEST(tripwire_cell_terms_file, modes_that_are_not_those_of_the_cell_are_refused)
 {
-  HomogenizedCell cell       = plain_cell();
+  HomogenizedCell cell       = tests::plain_cell(tests::skewed_lattice(), 3, 2);
   cell.edges                 = some_edges(cell.mesh.n_vertices());
   cell.edges->sides[1].decay = 1.5;
   const std::string file     = temporary("damaged.h5");

@@ -6,7 +6,7 @@
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/state_file.h"
 #include "meshes/plain/errors.h"
-#include "tests/meshes/plain/shapes.h"
+#include "tests/meshes/plain/plain_cell.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -37,13 +37,7 @@ const struct Removed
 
 HomogenizedCell written_cell()
 {
-  HomogenizedCell cell;
-  cell.lattice = tests::skewed_lattice();
-  cell.mesh    = tests::parallelogram(cell.lattice, 1, 1);
-  cell.mesh.material.setZero();
-  cell.chi.setZero(cell.mesh.n_vertices(), 6);
-  cell.stiffness     = Eigen::Vector3d(3., 2., 1.).asDiagonal();
-  cell.areal_density = 0.2;
+  HomogenizedCell cell = tests::plain_cell(tests::skewed_lattice(), 1, 1);
   write_cell(cell, file);
   return cell;
 }
