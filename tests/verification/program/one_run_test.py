@@ -46,8 +46,9 @@ class OneRun(InFolder):
         # At 10 % the budget of a sheet may be open.
         self.assertIn(run("strain", LAYERED, "--quick", "--loads", "periodic-12,strip-1",
                           "--no-runtime", "--no-report", "--output", output).returncode, (0, 4))
-        for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]:
-            self.assertIn(verdict["kind"], ("program", "input", "method"), verdict)
+        verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
+        self.assertEqual({verdict["kind"] for verdict in verdicts}, {"program", "input", "method"})
+        for verdict in verdicts:
             self.assertTrue(verdict["derivation"], verdict)
             # What the settings cannot decide is no claim.
             self.assertIsNotNone(verdict["value"], verdict)
