@@ -284,6 +284,8 @@ class Judged:
         self.folder, self.name = folder, name
         table = results(folder)["strain"]
         self.rows = table[table["method"] == name]
+        known = table[table["error_mean_per_cell"] > 0.0][0]
+        self._side = known["error_mean_m"] / known["error_mean_per_cell"]
         same = ["cell", "load", "strain", "reference"]
         self.ranks = numpy.array([
             1 + numpy.sum((table[same] == row[same]) & (table["method"] != name)
@@ -298,8 +300,8 @@ class Judged:
         lines = [f"{self.name}: error in 1/1000 of strain x cell side, its bar, rank among "
                  "homespun's methods"]
         for row, rank in zip(self.rows, self.ranks):
-            error = 1e3 * row["error_mean_per_cell"] / row["strain"]
-            bar = error * row["error_bar_m"] / row["error_mean_m"] if row["error_mean_m"] else 0.0
+            unit = 1e-3 * row["strain"] * self._side
+            error, bar = row["error_mean_m"] / unit, row["error_bar_m"] / unit
             lines.append(f"{row['load']:<13} {row['reference']:<7} {100 * row['strain']:>5.3g} % "
                          f"{error:>9.4g} ± {bar:<8.2g} {rank:>3}")
         return "\n".join(lines)

@@ -173,7 +173,8 @@ int conclude(CommandLine &line, const std::vector<Verdict> &verdicts, const Stud
 {
   if (is_root(MPI_COMM_WORLD))
   {
-    const std::string last = study.quiet ? "" : count_of_claims(verdicts) + "\n";
+    const std::string last =
+      study.quiet || verdicts.empty() ? "" : count_of_claims(verdicts) + "\n";
     if (!study.quiet)
       print(verdicts, end);
     if (end.no_report)

@@ -2,6 +2,7 @@
 #include "verification/drape/drape_verdicts.h"
 
 #include <cmath>
+#include <set>
 
 namespace homespun::verification
 {
@@ -10,27 +11,31 @@ namespace
 /// Means over the frames of one method [m].
 struct OverTime
 {
-  int n_frames        = 0;
+  std::set<int> frames;
   double error        = 0.;
   double displacement = 0.;
-  double bar          = 0.; ///< not a number where that of some frame is not known
+  double bar          = 0.;    ///< not a number where that of some frame is not known
+  bool has_bars       = false; ///< of some frame
 };
 
-OverTime over_time(const std::vector<DrapeRow> &rows, const JudgedCloth &cloth,
-                   const std::string &reference, const std::string &method)
+/// @param among these frames alone; empty: all after the beginning
+OverTime over_time(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
+                   const std::string &method, const std::set<int> &among = {})
 {
   OverTime mean;
   for (const DrapeRow &row : rows)
-    if (row.cell == cloth.cell && row.reference == reference && row.method == method &&
-        row.variant == cloth.variant && row.frame > 0)
+    if (row.cell == of.cell && row.reference == of.reference && row.method == method &&
+        row.variant == of.variant && row.frame > 0 && (among.empty() || among.count(row.frame) > 0))
     {
-      ++mean.n_frames;
+      const double bar = row.uncertainty + row.time_step;
+      mean.frames.insert(row.frame);
       mean.error += row.mean;
       mean.displacement += row.displacement;
-      mean.bar += row.uncertainty + row.time_step;
+      mean.bar += bar;
+      mean.has_bars = mean.has_bars || std::isfinite(bar);
     }
   for (double *const sum : {&mean.error, &mean.displacement, &mean.bar})
-    *sum /= mean.n_frames;
+    *sum /= static_cast<double>(mean.frames.size());
   return mean;
 }
 
@@ -44,28 +49,47 @@ Outcome is_below(const double value, const double bar, const double limit)
 
 } // namespace
 
-std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
-                                          const JudgedCloth &method, const std::string &reference)
+Verdict verdict_of_closer(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
+                          const std::string &method, const std::string &other)
 {
-  const OverTime localized = over_time(rows, method, reference, "localized"),
-                 affine    = over_time(rows, method, reference, "affine");
+  const OverTime one = over_time(rows, of, method), than = over_time(rows, of, other, one.frames);
+  const double ratio = one.error / than.error, bar = (one.bar + than.bar) / than.error;
+  const std::string why = than.frames != one.frames ? "not among the methods of these frames"
+                          : !one.has_bars ? "the reference has no error bar, and `left_out` in "
+                                            "drape.json says why"
+                          : !std::isfinite(bar) ? "of some frame an error bar is not known"
+                                                : "";
+  return judged("closer-in-scene",
+                {{"cell", of.cell},
+                 {"reference", of.reference},
+                 {"method", method},
+                 {"other", other},
+                 {"note", why.empty() ? ", " + short_text(bar) : "; open: " + why}},
+                why.empty() ? is_below(ratio, bar, 1.) : Outcome::inconclusive, ratio);
+}
+
+std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
+                                          const double side)
+{
+  const OverTime localized = over_time(rows, of, "localized");
   std::vector<Verdict> verdicts;
-  if (localized.n_frames == 0)
+  if (localized.frames.empty())
     return verdicts;
-  const auto judge = [&](const char *claim, Words words, const double unit, const double limit)
+  if (over_time(rows, of, "affine").frames == localized.frames)
+    verdicts.push_back(verdict_of_closer(rows, of, "localized", "affine"));
+  const auto require = [&](const char *what, const double unit, const double limit)
   {
-    words.insert({{"cell", method.cell}, {"reference", reference}, {"bar", localized.bar / unit}});
-    verdicts.push_back(judged(claim, words,
+    verdicts.push_back(judged("error-in-scene",
+                              {{"cell", of.cell},
+                               {"reference", of.reference},
+                               {"unit", what},
+                               {"limit", limit},
+                               {"bar", localized.bar / unit}},
                               is_below(localized.error / unit, localized.bar / unit, limit),
                               localized.error / unit));
   };
-  if (affine.n_frames == localized.n_frames)
-    judge("closer-in-scene", {}, affine.error, 1.);
-  const auto require = [&](const char *what, const double unit, const double limit) {
-    judge("error-in-scene", {{"unit", what}, {"limit", limit}}, unit, limit);
-  };
   require("mean displacement", localized.displacement, most_per_displacement);
-  require("side of a cell", method.side, most_per_cell);
+  require("side of a cell", side, most_per_cell);
   return verdicts;
 }
 } // namespace homespun::verification

@@ -40,29 +40,33 @@ inline Verdict verdict_of_reference(const std::string &cell, const std::string &
                 n_found);
 }
 
-/// The coarse cloth of a cell that is judged.
-struct JudgedCloth
+/// The rows of drape.csv that are judged: of one cell, coarse cloth and reference.
+struct JudgedErrors
 {
-  std::string cell, variant;
-  double side = 0.; ///< of a cell [m]
+  std::string cell, variant, reference;
 };
 
 /// What is asked of the method in a scene: places in the fabric to a twentieth of the way that they
 /// went, and to a tenth of a cell.
 constexpr double most_per_displacement = 0.05, most_per_cell = 0.1;
 
-/// Judges the method (its main variant) against one reference that has an error bar, over
-/// the frames after the beginning:
-/// - localized is closer to it than affine, by more than the bar
-/// - the error over the displacement of the reference, and over the side of a cell, is below what
-///   is asked
-/// Each is a ratio of means over the frames. The bar of an error is that of the reference's mesh
-/// and that of the time step together; a claim that the bar could turn round is open, as is one of
-/// which some frame has no bar.
+/// The claim that a method is closer to a reference than another one: a ratio of means over the
+/// frames of the former after the beginning. The bar of an error is that of the reference's mesh
+/// and that of the time step together; bars of both hold whatever the methods share, so that their
+/// sum is safe by the triangle inequality. A claim that they could turn round is open, as is one of
+/// which some frame has no bar, or which the other method does not have.
 /// @param rows of drape.csv of one scene
-/// @param method whose rows are judged
-std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
-                                          const JudgedCloth &method, const std::string &reference);
+Verdict verdict_of_closer(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
+                          const std::string &method, const std::string &other);
+
+/// Judges `localized` against one reference that has an error bar, over the frames after the
+/// beginning:
+/// - it is closer than affine, by more than the bars
+/// - the error over the displacement of the reference, and over the side of a cell, is below what
+///   is asked, by more than the bar
+/// @param side of a cell [m]
+std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
+                                          double side);
 
 /// What is known of a scene before it runs:
 /// - where it moves what it holds: that starts and ends at rest, evenly accelerated

@@ -22,6 +22,6 @@ void keep_cloth(const std::string &run, const DrapedCell &draped);
 
 /// Writes the positions of a frame.
 /// @throws BadInput where the file cannot be written
-void keep_frame(const std::string &run, const std::string &cell, const std::string &reference,
+void keep_frame(const std::string &run, const DrapedCell &draped, const std::string &reference,
                 int frame, const KeptPositions &positions);
 } // namespace homespun::verification

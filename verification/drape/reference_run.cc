@@ -69,6 +69,7 @@ public:
       if (frame > 0)
         run.progress.done();
     }
+    note_on_frames_not_kept(n_frames);
     judge(n_frames);
     return description();
   }
@@ -178,8 +179,17 @@ private:
     if (run.options.keep)
       for (const CoarseRun &cloth : coarse.all)
         if (cloth.is_main && cloth.frames.size() > at)
-          keep_frame(run.options.output, draped.cell.name, reference, frame,
-                     {cloth.frames[at], positions});
+          keep_frame(run.options.output, draped, reference, frame, {cloth.frames[at], positions});
+  }
+
+  void note_on_frames_not_kept(const int n_frames)
+  {
+    for (const CoarseRun &cloth : coarse.all) // of the first rank
+      if (const auto n_kept = static_cast<int>(cloth.frames.size());
+          run.options.keep && cloth.is_main && n_kept < n_frames)
+        run.note(title + ": positions are not kept from frame " + std::to_string(n_kept) +
+                 " to frame " + std::to_string(n_frames - 1) +
+                 ", which the coarse cloth did not reach: " + cloth.failure);
   }
 
   void judge(const int n_frames)
@@ -191,8 +201,8 @@ private:
               [&]()
               {
                 for (const Verdict &verdict : verdicts_of_accuracy(
-                       run.output->error_rows(),
-                       {draped.cell.name, name_of(draped.law), draped.side}, reference))
+                       run.output->error_rows(), {draped.cell.name, name_of(draped.law), reference},
+                       draped.side))
                   run.verdicts.push_back(verdict);
               });
   }

@@ -7,6 +7,7 @@
 #include "meshes/files/polygons.h"
 #include "meshes/plain/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -88,13 +89,30 @@ Rows read_npy(const std::string &file, const int n_vertices)
            : numbers_of<float, Eigen::RowMajor>(bytes, begin + length, n_vertices, n_columns);
 }
 
-Rows read_hdf5(const std::string &file, const int n_vertices)
+[[noreturn]] void refuse_triangles(const std::string &file)
+{
+  throw BadInput(file + ": its faces are not those of the kept mesh, or stand in another order, as "
+                        "then the vertices may, too; expected the dataset `triangles` of the "
+                        "kept mesh: write positions at its vertices in their order, with these "
+                        "triangles or as .npy");
+}
+
+/// Where there are triangles, they must be those of the mesh.
+Rows read_hdf5(const std::string &file, const meshes::Triangles &triangles, const int n_vertices)
 {
   const meshes::Hdf5Reader input(file, "a dataset /positions");
   const auto shape =
     input.shape_of("/positions", {meshes::Hdf5Reader::any, meshes::Hdf5Reader::any});
   if (shape[0] != static_cast<unsigned long long>(n_vertices) || shape[1] < 2 || shape[1] > 3)
     refuse_shape(file, shape_text(std::to_string(shape[0]), std::to_string(shape[1])), n_vertices);
+  if (input.has("/triangles"))
+  {
+    const auto corners           = input.shape_of("/triangles", {meshes::Hdf5Reader::any, 3});
+    const std::vector<int> found = input.integers("/triangles", corners);
+    if (corners[0] != static_cast<unsigned long long>(triangles.rows()) ||
+        !std::equal(found.begin(), found.end(), triangles.data()))
+      refuse_triangles(file);
+  }
   const std::vector<double> values = input.numbers("/positions", shape);
   return Eigen::Map<const Rows>(values.data(), n_vertices, static_cast<Eigen::Index>(shape[1]));
 }
@@ -131,8 +149,7 @@ Rows read_surface(const std::string &file, const meshes::Triangles &triangles, c
     is_same = face[3] < 0 && Eigen::RowVector3i(face[0], face[1], face[2]) == triangles.row(t);
   }
   if (!is_same)
-    throw BadInput(file + ": its faces are not those of the rest mesh; expected its triangles in "
-                          "their order: the vertices may stand in another order, too");
+    refuse_triangles(file);
   return found.positions;
 }
 
@@ -159,7 +176,7 @@ GivenPositions read_positions(const std::string &file, const meshes::Triangles &
   if (kind == ".npy")
     values = read_npy(file, n);
   else if (kind == ".h5" || kind == ".hdf5")
-    values = read_hdf5(file, n);
+    values = read_hdf5(file, triangles, n);
   else if (kind == ".obj" || kind == ".ply" || kind == ".vtu")
     values = read_surface(file, triangles, n);
   else

@@ -17,7 +17,8 @@ struct GivenPositions
 
 /// Reads .npy (float64 or float32), .h5 (dataset /positions), .obj, .ply or, by meshio, .vtu. Of
 /// sheets in their plane a third column may be there and must be zero.
-/// @param triangles of the mesh, which a file with faces must have
+/// @param triangles of the mesh, which .obj, .ply and .vtu must have, and .h5 where it has
+///   a dataset /triangles
 /// @param like positions of as many vertices and components
 /// @throws BadInput naming the file, what was found and what was expected
 GivenPositions read_positions(const std::string &file, const meshes::Triangles &triangles,

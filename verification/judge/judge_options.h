@@ -4,7 +4,7 @@
 
 #include "verification/cell/study_options.h"
 
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +15,6 @@ struct JudgeOptions : StudyOptions
   std::string run;                ///< folder of a `strain --keep`
   std::vector<std::string> files; ///< of positions, and folders of such
   std::string method = "mine";    ///< what the method is called
-  double seconds     = std::numeric_limits<double>::quiet_NaN(); ///< of one level; none: unknown
+  std::optional<double> seconds;  ///< of one level
 };
 } // namespace homespun::verification

@@ -12,9 +12,6 @@ std::vector<Verdict> judge(const JudgeOptions &options, const MPI_Comm communica
   if (!is_root(communicator))
     return {};
   JudgedRun given(options);
-  if (given.run["command"] == "strain")
-    return judge_levels(given);
-  judge_frames(given);
-  return {};
+  return given.run["command"] == "strain" ? judge_levels(given) : judge_frames(given);
 }
 } // namespace homespun::verification

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "verification/judge/judged_frames.h"
 
-#include "meshes/files/hdf5_reader.h"
 #include "meshes/plain/errors.h"
 #include "verification/drape/drape_tables.h"
+#include "verification/drape/drape_verdicts.h"
 #include "verification/drape/kept_frames.h"
 #include "verification/record/error_norms.h"
-#include "verification/record/number_text.h"
 #include "verification/record/table.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iostream>
+#include <set>
 
 namespace homespun::verification
 {
@@ -19,43 +17,40 @@ using meshes::BadInput;
 
 namespace
 {
-/// Triangles of the kept cloth.
-meshes::Triangles kept_triangles(const std::string &folder)
-{
-  const meshes::Hdf5Reader file(folder + "/cloth.h5", "the meshes of a `drape --keep`");
-  const auto shape              = file.shape_of("/triangles", {meshes::Hdf5Reader::any, 3});
-  const std::vector<int> values = file.integers("/triangles", shape);
-  return Eigen::Map<const meshes::Triangles>(values.data(), static_cast<Eigen::Index>(shape[0]), 3);
-}
-
 /// Each frame in a line: the error, its bar, and the rank among the methods, each on its cloth.
 void tell(const JudgedRun &given, const std::vector<DrapeRow> &rows,
-          const std::vector<DrapeRow> &judged)
+          const std::vector<DrapeRow> &judged, const double side)
 {
   for (const DrapeRow &row : judged)
   {
-    int n = 0, n_closer = 0;
+    std::vector<ErrorWithBar> others;
     for (const DrapeRow &other : rows)
       if (other.reference == row.reference && other.frame == row.frame &&
-          (other.variant == row.variant || other.variant == other.method) &&
-          std::isfinite(other.mean))
-      {
-        ++n;
-        n_closer += other.mean < row.mean;
-      }
-    const double unit = 1e3 * row.mean_per_cell / row.mean,
-                 bar  = unit * (row.uncertainty + row.time_step);
-    std::cout << row.reference << ", frame " << row.frame << ": "
-              << (std::isfinite(bar) ? with_bar(unit * row.mean, bar) : short_text(unit * row.mean))
-              << " thousandths of a cell side; " << n_closer << " of " << n
-              << " methods of homespun are closer\n";
+          (other.variant == row.variant || other.variant == other.method))
+        others.push_back({other.mean, other.uncertainty + other.time_step});
+    given.tell(row.reference + ", frame " + std::to_string(row.frame),
+               {row.mean, row.uncertainty + row.time_step},
+               {1e-3 * side, "thousandths of a cell side"}, others);
   }
-  for (const std::string &note : given.notes)
-    std::cout << note << "\n";
+  given.tell_notes();
+}
+
+void refuse_seconds(const JudgedRun &given)
+{
+  std::vector<std::string> faults;
+  if (given.options.seconds)
+    faults.emplace_back("--seconds: is of a level of `homespun strain`; a run of `homespun drape` "
+                        "has no table of run times: leave it out");
+  for (const auto &[name, file] : given.files)
+    if (std::isfinite(file.seconds))
+      faults.push_back(file.row + "column seconds: has a run time, of which a run of `homespun "
+                                  "drape` has no table; leave it empty");
+  if (!faults.empty())
+    throw BadInput(faults);
 }
 } // namespace
 
-void judge_frames(JudgedRun &given)
+std::vector<Verdict> judge_frames(JudgedRun &given)
 {
   const JudgeOptions &options        = given.options;
   const std::vector<DrapeRow> rows   = read_table<DrapeRow>(options.run + "/" + DrapeRow::file);
@@ -64,11 +59,11 @@ void judge_frames(JudgedRun &given)
     throw BadInput(options.run +
                    ": has no reference, or several cells; expected a run with --references, --keep "
                    "and one cell, which --unit-cells chooses");
+  refuse_seconds(given);
   const std::string cell = rows.front().cell, main = study["cells"][0]["runs"][0]["variant"],
-                    folder          = folder_of_positions(options.run, cell);
-  const meshes::Triangles triangles = kept_triangles(folder);
-  const double side                 = study["cells"][0]["cell_side_m"];
-  const auto n_vertices             = study["fine_vertices"].get<int>();
+                    folder = folder_of_positions(options.run, cell);
+  const KeptMesh mesh      = kept_mesh(folder + "/cloth.h5", "/start");
+  const double side        = study["cells"][0]["cell_side_m"];
   std::vector<DrapeRow> others; // of homespun's methods on the coarse cloth that was kept
   for (const DrapeRow &row : rows)
     if (row.method == options.method)
@@ -80,9 +75,8 @@ void judge_frames(JudgedRun &given)
     [&](const DrapeRow &known, const GivenFile &file)
     {
       const PositionRows reference =
-        kept_reference(folder, file_name_of(known.reference, known.frame), n_vertices, 3);
-      const ErrorNorms norms =
-        error_norms(given.distance(file, {triangles, side}, reference, known.displacement));
+        kept_reference(folder, file_name_of(known.reference, known.frame), mesh);
+      const ErrorNorms norms   = error_norms(given.distance(file, mesh, side, reference));
       DrapeRow row             = known; // and with it the bars, which are the reference's
       row.method               = options.method;
       row.mean                 = norms.mean;
@@ -94,8 +88,17 @@ void judge_frames(JudgedRun &given)
     });
   std::vector<DrapeRow> all = rows;
   all.insert(all.end(), judged.begin(), judged.end());
-  given.write("drape.json", {}, [&]() { Table<DrapeRow>(options.output).replace(all); });
+  std::set<std::string> references;
+  for (const DrapeRow &row : judged)
+    if (row.frame > 0)
+      references.insert(row.reference);
+  std::vector<Verdict> verdicts;
+  for (const std::string &reference : references)
+    for (const char *other : {"affine", "localized"})
+      verdicts.push_back(verdict_of_closer(all, {cell, main, reference}, options.method, other));
+  given.write("drape.json", verdicts, [&]() { Table<DrapeRow>(options.output).replace(all); });
   if (!options.quiet)
-    tell(given, rows, judged);
+    tell(given, rows, judged, side);
+  return verdicts;
 }
 } // namespace homespun::verification

@@ -8,7 +8,8 @@
 namespace homespun::verification
 {
 /// Judges positions against the references of a `drape --keep`: rows of drape.csv, beside those of
-/// the cloth that is the method's.
+/// the cloth that is the method's, and claims.
+/// @return the claims on the method
 /// @throws BadInput with a message per file whose positions cannot be judged, and nothing written
-void judge_frames(JudgedRun &given);
+std::vector<Verdict> judge_frames(JudgedRun &given);
 } // namespace homespun::verification

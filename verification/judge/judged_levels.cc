@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <optional>
 #include <set>
 
@@ -70,26 +69,48 @@ public:
   }
 
 private:
-  const meshes::Sheet &sheet_of(const StrainRow &row)
+  /// The cells of a level, and the mesh of it that was kept, which must be the same.
+  struct Kept
   {
-    std::optional<meshes::Sheet> &sheet = Load(row.load).is_periodic() ? repeated : full;
-    if (!sheet)
+    meshes::Sheet sheet;
+    KeptMesh mesh;
+  };
+
+  const Kept &kept_of(const StrainRow &row)
+  {
+    const bool is_periodic    = Load(row.load).is_periodic();
+    std::optional<Kept> &kept = is_periodic ? repeated : full;
+    if (!kept)
     {
       std::array<int, 2> n = {row.cells, row.cells};
-      if (Load(row.load).is_periodic())
+      if (is_periodic)
         n = given.run["inputs"].value("supercell", ordered_json({1, 1})).get<std::array<int, 2>>();
-      sheet = meshes::tile(cell.mesh, cell.lattice, n[0], n[1]);
+      const std::string file =
+        folder_of_positions(options.run, row.cell) + (is_periodic ? "/periodic.h5" : "/sheet.h5");
+      kept = {meshes::tile(cell.mesh, cell.lattice, n[0], n[1]), kept_mesh(file, "/rest")};
+      const meshes::TriangleMesh &made = kept->sheet.mesh;
+      // Numbers of a sheet differ by round-off where another build made it.
+      if (made.vertices.rows() != kept->mesh.vertices.rows() ||
+          made.triangles != kept->mesh.triangles ||
+          (made.vertices - kept->mesh.vertices).cwiseAbs().maxCoeff() > 1e-9 * side())
+        throw BadInput(file + ": is not the mesh that this version makes of cell.h5; run the study "
+                              "again, with --keep --overwrite");
     }
-    return *sheet;
+    return *kept;
+  }
+
+  double side() const
+  {
+    return std::sqrt(cell.lattice.area());
   }
 
   /// @param known a row of another method at the level
   StrainRow row_of(const StrainRow &known, const GivenFile &file)
   {
-    const meshes::Sheet &sheet = sheet_of(known);
-    const PositionRows reference =
-      kept_reference(folder_of_positions(options.run, known.cell), file_name_of(level_of(known)),
-                     sheet.mesh.n_vertices(), 2);
+    const Kept &kept             = kept_of(known);
+    const meshes::Sheet &sheet   = kept.sheet;
+    const PositionRows reference = kept_reference(folder_of_positions(options.run, known.cell),
+                                                  file_name_of(level_of(known)), kept.mesh);
     // Of infinite cloth positions count up to a translation; the reference leaves in place where
     // chi is zero.
     const auto align = [&](PositionRows &positions)
@@ -101,18 +122,16 @@ private:
       if (Load(known.load).is_periodic())
         positions.rowwise() -= translation;
     };
-    const Eigen::VectorXd distance =
-      given.distance(file, {sheet.mesh.triangles, std::sqrt(sheet.lattice.area())}, reference,
-                     (reference - sheet.mesh.vertices).rowwise().norm().mean(), align);
-    const auto itself = std::find_if(levels.begin(), levels.end(),
-                                     [&](const LevelRow &one)
-                                     {
+    const Eigen::VectorXd distance = given.distance(file, kept.mesh, side(), reference, align);
+    const auto itself              = std::find_if(levels.begin(), levels.end(),
+                                                  [&](const LevelRow &one)
+                                                  {
                                        return one.is_solved() && one.load == known.load &&
                                               one.reference == known.reference &&
                                               one.strain == known.strain;
                                      });
-    StrainRow row     = known;
-    row.method        = options.method;
+    StrainRow row                  = known;
+    row.method                     = options.method;
     set_errors(row, distance, sheet,
                itself == levels.end() ? StrainRow::none : itself->fluctuation);
     // Another program's method is not refined with the reference: its error is known as well as
@@ -120,8 +139,9 @@ private:
     row.bar        = row.uncertainty;
     row.bar_safety = StrainRow::none;
     // As of homespun's methods: the equilibrium of the coarse cloth and up-sampling.
-    row.seconds = (std::isnan(file.seconds) ? options.seconds : file.seconds) +
-                  (itself == levels.end() ? StrainRow::none : itself->seconds_coarse);
+    row.seconds =
+      (std::isnan(file.seconds) ? options.seconds.value_or(StrainRow::none) : file.seconds) +
+      (itself == levels.end() ? StrainRow::none : itself->seconds_coarse);
     return row;
   }
 
@@ -130,22 +150,16 @@ private:
   {
     for (const StrainRow &row : judged)
     {
-      int n = 0, n_closer = 0;
+      std::vector<ErrorWithBar> others;
       for (const StrainRow &other : rows)
         if (other.load == row.load && other.reference == row.reference &&
-            other.strain == row.strain && std::isfinite(other.mean))
-        {
-          ++n;
-          n_closer += other.mean < row.mean;
-        }
-      const double unit = 1e3 / (row.strain * row.mean / row.per_cell);
-      std::cout << row.load << ", " << row.reference << ", " << percent_text(row.strain) << ": "
-                << with_bar(unit * row.mean, unit * row.bar)
-                << " thousandths of strain x cell side; " << n_closer << " of " << n
-                << " methods of homespun are closer\n";
+            other.strain == row.strain)
+          others.push_back({other.mean, other.bar});
+      given.tell(row.load + ", " + row.reference + ", " + percent_text(row.strain),
+                 {row.mean, row.bar},
+                 {1e-3 * row.strain * side(), "thousandths of strain x cell side"}, others);
     }
-    for (const std::string &note : given.notes)
-      std::cout << note << "\n";
+    given.tell_notes();
   }
 
   JudgedRun &given;
@@ -154,7 +168,7 @@ private:
   const std::vector<LevelRow> levels;
   std::vector<StrainRow> judged;
   meshes::HomogenizedCell cell;
-  std::optional<meshes::Sheet> repeated, full; ///< made where a level asks for it
+  std::optional<Kept> repeated, full; ///< made where a level asks for it
 };
 } // namespace
 

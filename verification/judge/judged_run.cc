@@ -8,7 +8,9 @@
 #include "verification/record/run_folder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iostream>
 
 namespace homespun::verification
 {
@@ -45,15 +47,15 @@ void JudgedRun::refuse_unknown(const std::vector<std::string> &known,
 {
   for (const auto &[name, file] : files)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      faults.push_back(file.path + ": is of no level that " + options.run +
-                       " has; expected a name like that of its files in CELL/positions/, as in " +
-                       (known.empty() ? name : known.front()) + ".npy");
+      faults.push_back(file.row + file.path + ": `" + name + "` is no level or frame of " +
+                       options.run + "; expected one of which CELL/positions/ has a file" +
+                       (known.empty() ? "" : ", such as " + known.front()));
   if (!faults.empty())
     throw BadInput(faults);
 }
 
-Eigen::VectorXd JudgedRun::distance(const GivenFile &file, const JudgedMesh &mesh,
-                                    const PositionRows &reference, const double moved,
+Eigen::VectorXd JudgedRun::distance(const GivenFile &file, const KeptMesh &mesh, const double side,
+                                    const PositionRows &reference,
                                     const std::function<void(PositionRows &)> &align)
 {
   GivenPositions given = read_positions(file.path, mesh.triangles, reference);
@@ -61,7 +63,8 @@ Eigen::VectorXd JudgedRun::distance(const GivenFile &file, const JudgedMesh &mes
     align(given.points);
   const Eigen::VectorXd distance = reference.cols() == 2 ? distances<2>(given.points, reference)
                                                          : distances<3>(given.points, reference);
-  if (distance.mean() > std::max(2. * moved, 0.5 * mesh.side))
+  const double moved             = (reference - mesh.vertices).rowwise().norm().mean();
+  if (distance.mean() > std::max(2. * moved, 0.5 * side))
     throw BadInput(file.path + ": its positions are " + short_text(distance.mean()) +
                    " m from the reference in the mean, where the cloth at rest is " +
                    short_text(moved) +
@@ -71,6 +74,33 @@ Eigen::VectorXd JudgedRun::distance(const GivenFile &file, const JudgedMesh &mes
                     " m apart; errors of this size, as the " + short_text(distance.mean()) +
                     " m found here, are of the file and not of the method");
   return distance;
+}
+
+void JudgedRun::tell(const std::string &where, const ErrorWithBar &own, const UnitOfError &unit,
+                     const std::vector<ErrorWithBar> &others) const
+{
+  const bool has_bar = std::isfinite(own.bar);
+  int n_known = 0, n_closer = 0, n_surely = 0;
+  for (const ErrorWithBar &other : others)
+  {
+    n_known += std::isfinite(other.error);
+    n_closer += other.error < own.error;
+    n_surely += other.error + other.bar < own.error - own.bar;
+  }
+  std::cout << where << ": "
+            << (has_bar ? with_bar(own.error / unit.length, own.bar / unit.length)
+                        : short_text(own.error / unit.length))
+            << " " << unit.text << (has_bar ? "" : ", error bar not known") << "; " << n_closer
+            << " of " << n_known << " methods of homespun are closer";
+  if (n_closer > 0 && has_bar)
+    std::cout << ", " << n_surely << " of them by more than both error bars";
+  std::cout << "\n";
+}
+
+void JudgedRun::tell_notes() const
+{
+  for (const std::string &note : notes)
+    std::cout << note << "\n";
 }
 
 void JudgedRun::write(const std::string &description, const std::vector<Verdict> &verdicts,

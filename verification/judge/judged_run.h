@@ -21,11 +21,16 @@
 
 namespace homespun::verification
 {
-/// The cloth whose positions are given: triangles between its vertices, size of a cell.
-struct JudgedMesh
+/// [m]; a bar that is not known is not a number.
+struct ErrorWithBar
 {
-  const meshes::Triangles &triangles;
-  double side; ///< of a cell [m]
+  double error, bar;
+};
+
+struct UnitOfError
+{
+  double length; ///< [m]
+  const char *text;
 };
 
 class JudgedRun
@@ -44,13 +49,22 @@ public:
                              const std::function<Row(const Row &, const GivenFile &)> &judge);
 
   /// The distance of each vertex from the reference (n) [m].
-  /// @param moved how far the reference is from where the cloth was at first, in the mean [m]
+  /// @param mesh of the reference, where the cloth was at first
+  /// @param side of a cell [m]
   /// @param align moves what was given where only positions up to a translation count
   /// @throws BadInput where the positions are not of the mesh, or farther off than cloth that does
   ///   not move at all, which mostly means another unit, order or sheet
-  Eigen::VectorXd distance(const GivenFile &file, const JudgedMesh &mesh,
-                           const PositionRows &reference, double moved,
+  Eigen::VectorXd distance(const GivenFile &file, const KeptMesh &mesh, double side,
+                           const PositionRows &reference,
                            const std::function<void(PositionRows &)> &align = {});
+
+  /// A line of the terminal: an error, its bar, and how many methods of homespun are closer, and
+  /// by more than both bars.
+  /// @param where level or frame
+  /// @param others of those methods; an error that is not a number does not count
+  void tell(const std::string &where, const ErrorWithBar &own, const UnitOfError &unit,
+            const std::vector<ErrorWithBar> &others) const;
+  void tell_notes() const;
 
   /// Writes the folder of the result.
   /// @param description the study's file of its description
@@ -89,7 +103,7 @@ JudgedRun::judge_all(const std::vector<Row> &rows,
       }
       catch (const meshes::BadInput &bad)
       {
-        faults.emplace_back(bad.what());
+        faults.push_back(file->second.row + bad.what());
       }
   }
   refuse_unknown(known, std::move(faults));

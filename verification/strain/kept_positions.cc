@@ -3,7 +3,6 @@
 
 #include "verification/record/number_text.h"
 #include "verification/strain/cell_references.h"
-#include "verification/strain/sheet_fields.h"
 
 #include <cmath>
 #include <filesystem>
@@ -25,10 +24,10 @@ void keep(const std::string &run, const StrainLevel &level, const meshes::Sheet 
   if (!std::filesystem::exists(of_meshes))
   {
     meshes::Hdf5Writer file(of_meshes);
-    add_meshes(file, sheet, coarse_rest);
+    write_meshes(file, sheet, coarse_rest);
     file.finish();
   }
-  keep_state(folder, file_name_of(level), positions,
+  keep_state(folder, file_name_of(level), {sheet.mesh.vertices, sheet.mesh.triangles}, positions,
              [&](meshes::Hdf5Writer &file)
              {
                file.attribute("/", "load", level.load);

@@ -2,45 +2,21 @@
 #include "verification/strain/sheet_fields.h"
 
 #include "meshes/files/surface_files.h"
+#include "verification/record/kept_positions.h"
 #include "verification/record/number_text.h"
 
 #include <vector>
 
 namespace homespun::verification
 {
-namespace
-{
-void add_triangles(meshes::Hdf5Writer &file, const std::string &name,
-                   const meshes::TriangleMesh &mesh)
-{
-  file.write(name, {static_cast<unsigned long long>(mesh.n_triangles()), 3}, mesh.triangles.data());
-}
-} // namespace
-
-void add_points(meshes::Hdf5Writer &file, const std::string &name, const meshes::Points &points)
-{
-  file.write(name, {static_cast<unsigned long long>(points.rows()), 2}, points.data(), "m");
-}
-
-void add_meshes(meshes::Hdf5Writer &file, const meshes::Sheet &sheet,
-                const meshes::TriangleMesh &coarse_rest)
-{
-  add_points(file, "/rest", sheet.mesh.vertices);
-  add_triangles(file, "/triangles", sheet.mesh);
-  file.write("/material", {static_cast<unsigned long long>(sheet.mesh.n_triangles())},
-             sheet.mesh.material.data());
-  add_points(file, "/coarse_rest", coarse_rest.vertices);
-  add_triangles(file, "/coarse_triangles", coarse_rest);
-}
-
 void write_sheet_fields(const std::string &path, const meshes::Sheet &sheet,
                         const meshes::TriangleMesh &coarse_rest, const SheetFields &fields)
 {
   meshes::Hdf5Writer file(path);
-  add_meshes(file, sheet, coarse_rest);
-  add_points(file, "/reference", fields.fine);
-  add_points(file, "/upsampled", fields.upsampled);
-  add_points(file, "/coarse", fields.coarse);
+  write_meshes(file, sheet, coarse_rest);
+  write_positions(file, "/reference", fields.fine);
+  write_positions(file, "/upsampled", fields.upsampled);
+  write_positions(file, "/coarse", fields.coarse);
   file.attribute("/", "load", fields.load);
   file.attribute("/", "strain", fields.strain);
   file.attribute("/", "reference", fields.reference);

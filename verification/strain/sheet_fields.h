@@ -3,7 +3,6 @@
 // ParaView (sheet-LOAD-STRAIN.vtu).
 #pragma once
 
-#include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/sheet.h"
 
 #include <string>
@@ -20,14 +19,6 @@ struct SheetFields
   const meshes::Points &affine;    ///< (n,2) the coarse motion, interpolated [m]
   const meshes::Points &coarse;    ///< (n_coarse,2) [m]
 };
-
-/// Adds positions, shape (n,2) [m].
-void add_points(meshes::Hdf5Writer &file, const std::string &name, const meshes::Points &points);
-
-/// Adds the meshes of a sheet: /rest [m], /triangles, /material, and /coarse_rest [m],
-/// /coarse_triangles.
-void add_meshes(meshes::Hdf5Writer &file, const meshes::Sheet &sheet,
-                const meshes::TriangleMesh &coarse_rest);
 
 /// Writes /rest, /triangles, /material, /reference, /upsampled, /coarse_rest, /coarse_triangles,
 /// /coarse in m, with the attributes load, strain, reference and method, whole or not at all.

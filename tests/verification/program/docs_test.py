@@ -117,7 +117,7 @@ class Commands(unittest.TestCase):
 
     def test_every_command_of_the_front_page_is_run_by_a_test(self):
         here = pathlib.Path(__file__).parent
-        tests = "".join(path.read_text(encoding="utf-8") for path in here.glob("*_test.py")
+        tests = "".join(path.read_text(encoding="utf-8") for path in here.glob("*.py")
                         if path != pathlib.Path(__file__))
         for words in commands(FRONT):
             if words[1] != "--version":

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Scenes say all that is wrong with them."""
+import re
 import unittest
 
-from cli import run
+from cli import CELLS, run
 from scene_case import SCENES, TRIANGLE, SceneCase
 
 
@@ -87,6 +88,22 @@ class BadScenes(SceneCase):
         self.refused(SCENES / "hang.prm", "found `oracle`", options=["--references", "oracle"])
         self.refused(SCENES / "hang.prm", "found `knitted`",
                      options=["--variants", "biot,knitted"])
+
+    def test_frames_that_are_not_kept_are_told_with_the_reason(self):
+        # A sheet pressed together by nearly its height, in steps too large for the coarse cloth.
+        path = self.scene({"Cells": CELLS / "layered.prm", "Integrator": "conserving",
+                           "Time step": "0.02", "Frame interval": "0.02", "Duration": "0.5",
+                           "Handles": "top: translate 0 0 -0.19 during 0.5"}, name="pull")
+        output = self.folder / "out"
+        result = run("drape", path, "--cells", 2, "--quick", "--variants", "biot", "--references",
+                     "biot", "--keep", "--no-report", "--no-frames", "--output", output)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        told = re.search(r"layered, biot: positions are not kept from frame (\d+) to frame 25, "
+                         "which the coarse cloth did not reach: the line search of the conserving "
+                         "step", result.stderr)
+        self.assertTrue(told, result.stderr)
+        kept = [path.stem for path in (output / "layered" / "positions").glob("biot-*.h5")]
+        self.assertEqual(max(kept), f"biot-{int(told[1]) - 1:04d}")
 
 
 if __name__ == "__main__":

@@ -2,19 +2,18 @@
 """homespun judge: positions of other programs against the references that a study kept."""
 import importlib.util
 import json
-import pathlib
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import types
 import unittest
 
 import h5py
 import numpy
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, rows_of, run
+from judge_case import JudgingFrames, JudgingLevels
 
 PEERS = CELLS.parents[1] / "python" / "peers"
 NORMS = ("error_mean_m", "error_rms_m", "error_max_m", "error_mean_per_cell",
@@ -23,43 +22,7 @@ NORMS = ("error_mean_m", "error_rms_m", "error_max_m", "error_mean_per_cell",
          "reference_uncertainty_max_m", "reference_to_refined_m", "seconds_reference")
 
 
-class Judge(InFolder):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.study = pathlib.Path(folder.name) / "study"
-        cls.said = run("strain", CELLS / "layered.prm", "--cells", "4", "--loads",
-                       "strip-1,periodic-11", "--references", "linear,biot", "--strains",
-                       "0.01,0.1", "--no-budget", "--no-runtime", "--no-report", "--keep",
-                       "--output", cls.study).stderr
-        cls.kept = cls.study / "layered" / "positions"
-        cls.rows = rows_of(cls.study / "strain.csv")
-        with h5py.File(cls.kept / "sheet.h5") as file:
-            cls.triangles = file["triangles"][...]
-
-    def reference(self, level):
-        with h5py.File(self.kept / f"{level}.h5") as file:
-            return file["reference"][...]
-
-    def affine(self):
-        """The rest sheet, pulled evenly."""
-        with h5py.File(self.kept / "sheet.h5") as file:
-            return file["rest"][...] * [1.1, 0.97]
-
-    def write(self, name, positions):
-        path = self.folder / name
-        numpy.save(path, positions)
-        return path
-
-    def judged(self, *files, name="mine", report=False):
-        output = self.folder / f"judged-{name}"
-        result = run("judge", self.study, *files, "--name", name, "--output", output, "--overwrite",
-                     *([] if report else ["--no-report"]))
-        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        return {f"{row['load']}-{row['reference']}-{float(row['strain']):g}": row
-                for row in rows_of(output / "strain.csv") if row["method"] == name}, result
-
+class Judge(JudgingLevels):
     def row(self, method, load="strip-1", reference="biot", strain="0.1"):
         wanted = (method, load, reference, strain)
         return next(row for row in self.rows if (row["method"], row["load"], row["reference"],
@@ -103,49 +66,16 @@ class Judge(InFolder):
         self.assertRegex(text, r"\d of \d \(strip-1\) methods of homespun are closer than flat, "
                                r"whose error is [\d.]+ \(strip-1\) times that of full")
 
-    def test_a_table_tells_levels_files_and_seconds(self):
-        shifted = self.reference("strip-1-biot-0.1") + [1e-8, 0.]
-        (self.folder / "some").mkdir()
-        self.write("some/one.npy", shifted)
-        self.write("some/two.npy", shifted)
-        table = self.folder / "table.csv"
-        table.write_text("file, load,law,strain,seconds,remark\r\n"
-                         "some/one.npy,strip-1,biot,0.1,2.5,x\r\n\r\n"
-                         "some/two.npy,strip-1,linear,0.1,,x")
-        rows, _ = self.judged(table)
-        self.assertEqual(set(rows), {"strip-1-biot-0.1", "strip-1-linear-0.1"})
-        # The coarse cloth's time comes to the method's, as in homespun's own.
-        cloth = next(row for row in rows_of(self.study / "levels.csv") if row["part"] == "" and
-                     (row["load"], row["reference"], row["strain"]) == ("strip-1", "biot", "0.1"))
-        self.assertAlmostEqual(float(rows["strip-1-biot-0.1"]["seconds_method"]),
-                               2.5 + float(cloth["seconds_coarse_solve"]), delta=1e-12)
-        self.assertEqual(rows["strip-1-linear-0.1"]["seconds_method"], "")
-        good = "load,law,strain,file\n"
-        for text, *words in (
-                (good + "strip-1,biot,0.1,some/none.npy\nstrip-1,elastic,0.1,some/one.npy\n",
-                 "table.csv, line 2: ", "none.npy is not there", "line 3: unknown reference"),
-                (good + "strip-1,biot,10%,some/one.npy\n", "line 2: expected a load"),
-                (good + "strip-1,biot,0.1\n", "line 2: found 3 fields; expected 4"),
-                ("load,law,strain\nstrip-1,biot,0.1\n", "line 2: expected a load"),
-                (good, "expected a row at least"),
-                (good + 2 * "strip-1,biot,0.1,some/one.npy\n", "expected one file for each"),
-                (good + "strip-1,biot,0.3,some/one.npy\n", "is of no level")):
-            table.write_text(text)
-            result = run("judge", self.study, table, "--output", self.folder / "refused")
-            self.assertEqual(result.returncode, 2)
-            for word in words:
-                self.assertIn(word, result.stderr)
-
     def test_a_shift_is_seen_in_a_sheet_and_means_nothing_in_infinite_cloth(self):
         shift = [1e-8, 0.]  # a millionth of a cell
-        files = [self.write(f"{level}.npy", self.reference(level) + shift)
+        files = [self.write(f"{level}.npy", self.kept_positions(level) + shift)
                  for level in ("strip-1-biot-0.1", "periodic-11-biot-0.1")]
         rows, _ = self.judged(*files)
         self.assertAlmostEqual(float(rows["strip-1-biot-0.1"]["error_mean_m"]), 1e-8, delta=1e-15)
         self.assertLess(float(rows["periodic-11-biot-0.1"]["error_mean_m"]), 1e-15)
 
     def test_files_with_few_digits_say_so(self):
-        wanted = self.reference("strip-1-biot-0.1") + [0., 2e-6]
+        wanted = self.kept_positions("strip-1-biot-0.1") + [0., 2e-6]
         path = self.folder / "strip-1-biot-0.1.obj"
         path.write_text("".join(f"v {x:.5f} {y:.5f} 0\n" for x, y in wanted) +
                         "".join(f"f {a} {b} {c}\n" for a, b, c in self.triangles + 1))
@@ -170,81 +100,114 @@ class Judge(InFolder):
             self.assertNotIn("its numbers tell", result.stdout)
         meshio.Mesh(in_space, [("triangle", self.triangles[::-1])]).write(path)
         for words in ("its faces are not those", "cannot read as .vtu"):
-            result = run("judge", self.study, path)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(words, result.stderr)
+            self.refused(words, path)
             path.write_text("<VTKFile", encoding="utf-8")
 
     def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
-        good = self.reference("strip-1-biot-0.1")
+        good = self.kept_positions("strip-1-biot-0.1")
         nan = good.copy()
         nan[3, 1] = numpy.nan
         order = numpy.random.default_rng(1).permutation(len(good))
         out_of_plane = numpy.column_stack([good, numpy.full(len(good), 1e-3)])
         for name, positions, words in (
                 ("strip-1-biot-0.1", nan, "holds NaN"),
-                ("strip-1-biot-0.1", good[:-1], rf"expected \({len(good)}, 2\)"),
+                ("strip-1-biot-0.1", good[:-1], f"expected ({len(good)}, 2)"),
                 ("strip-1-biot-0.1", 1e3 * good, "expected positions in metres, in the order"),
                 ("strip-1-biot-0.1", good[order], "expected positions in metres, in the order"),
                 ("strip-1-biot-0.1", good.astype(int), "astype"),
                 ("strip-1-biot-0.1", out_of_plane, "third column"),
-                ("strip-1-biot-0.2", good, "is of no level"),
-                ("mine", good, "is of no level")):
+                ("strip-1-biot-0.2", good, "`strip-1-biot-0.2` is no level or frame of"),
+                ("mine", good, "such as strip-1-linear-0.01")):
             path = self.write(f"{name}.npy", positions)
-            result = run("judge", self.study, path, "--output", self.folder / "refused")
-            self.assertEqual(result.returncode, 2)
-            self.assertRegex(result.stderr, words)
-            self.assertFalse((self.folder / "refused").exists())
+            self.refused(words, path)
             path.unlink()
-        swapped = self.folder / "strip-1-biot-0.1.obj"
-        swapped.write_text("".join(f"v {x} {y} 0\n" for x, y in good) +
-                           "".join(f"f {b} {a} {c}\n" for a, b, c in self.triangles + 1))
         path = self.write("strip-1-biot-0.1.npy", good)
         for words, *arguments in (
-                ("its faces are not those", self.study, swapped),
-                ("expected one file for each", self.study, swapped, path),
-                ("no method of homespun", self.study, path, "--name", "affine"),
-                ("--name: found", self.study, path, "--name", "my method"),
-                ("--name: found", self.study, path, "--name", "base"),
-                ("is not there", self.study, self.folder / "nothing.npy"),
-                ("no run", self.folder, path)):
-            result = run("judge", *arguments)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(words, result.stderr)
+                ("--name: found", path, "--name", "my method"),
+                *(("no method, law or reference", path, "--name", name) for name in (
+                    "affine", "p2", "quadratic", "base", "biot", "shell", "reference", "woven")),
+                *(("--seconds: found", path, "--seconds", seconds) for seconds in (
+                    "-1", "nan", "inf")),
+                ("is not there", self.folder / "nothing.npy")):
+            self.refused(words, *arguments)
+        self.refused("no run", path, study=self.folder)
         # A study without --keep has nothing to judge against, and what was judged is no study.
         without = self.folder / "without"
         shutil.copytree(self.study, without, ignore=shutil.ignore_patterns("positions"))
         self.judged(path)
-        for words, study in (("strain --keep", without), ("judged", self.folder / "judged-mine")):
-            result = run("judge", study, path)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(words, result.stderr)
+        self.refused("strain --keep", path, study=without)
+        self.refused("judged", path, study=self.folder / "judged-mine")
+
+    def test_of_a_folder_its_files_are_judged_and_nothing_else(self):
+        mine = self.folder / "mine"
+        mine.mkdir()
+        self.refused(f"{mine}: is an empty folder; expected files of positions in it", mine)
+        (mine / ".cache").mkdir()
+        (mine / ".notes").write_text("hidden")
+        self.refused("is an empty folder", mine)
+        path = self.write("mine/strip-1-biot-0.1.npy", self.affine())
+        self.assertEqual(set(self.judged(mine)[0]), {"strip-1-biot-0.1"})
+        (mine / "older").mkdir()
+        (mine / "table.csv").write_text("")
+        self.refused((f"{mine / 'older'}: is a folder in a folder",
+                      f"{mine / 'table.csv'}: is a table in a folder"), mine)
+        self.refused("expected one file for each", path,
+                     self.write("strip-1-biot-0.1.npy", self.affine()))
+
+    def test_an_error_of_zero_is_a_number(self):
+        rows, result = self.judged(
+            self.write("strip-1-biot-0.1.npy", self.kept_positions("strip-1-biot-0.1")))
+        self.assertEqual(rows["strip-1-biot-0.1"]["error_mean_m"], "0")
+        self.assertRegex(result.stdout, r"strip-1, biot, 10 %: 0.* \+- [0-9.e-]+ thousandths")
+        self.assertNotIn("nan", result.stdout)
+
+    def test_triangles_of_another_order_are_refused(self):
+        good = self.kept_positions("strip-1-biot-0.1")
+        order = numpy.random.default_rng(1).permutation(len(good))
+        at = numpy.argsort(order)  # of each old vertex its new number
+        for positions, triangles in ((good, self.triangles[:, [1, 0, 2]]),
+                                     (good[order], at[self.triangles])):
+            path = self.folder / "strip-1-biot-0.1.obj"
+            path.write_text("".join(f"v {x} {y} 0\n" for x, y in positions) +
+                            "".join(f"f {a} {b} {c}\n" for a, b, c in triangles + 1))
+            self.refused(("strip-1-biot-0.1.obj: its faces are not those of the kept mesh",
+                          "write positions at its vertices in their order"), path)
+            path = self.folder / "strip-1-biot-0.1.h5"
+            with h5py.File(path, "w") as file:
+                file["positions"], file["triangles"] = positions, triangles
+            self.refused("strip-1-biot-0.1.h5: its faces are not those of the kept mesh", path)
+        with h5py.File(path, "w") as file:
+            file["positions"], file["triangles"] = good, self.triangles
+        self.assertEqual(self.judged(path)[0]["strip-1-biot-0.1"]["error_mean_m"], "0")
+
+    def test_positions_of_another_mesh_than_the_kept_one_are_refused(self):
+        other = self.folder / "other"
+        path = self.write("strip-1-biot-0.1.npy", self.affine())
+        for name, words in (
+                ("sheet.h5", "sheet.h5: is not the mesh that this version makes"),
+                ("strip-1-biot-0.1.h5", "0.1.h5: is not of the mesh that lies beside it")):
+            shutil.copytree(self.study, other)
+            with h5py.File(other / "layered" / "positions" / name, "r+") as file:
+                if name == "sheet.h5":
+                    file["rest"][0] += 1e-6
+                else:
+                    file.attrs["mesh"] = numpy.bytes_(b"0123456789abcdef")
+            # As if the run had written it so.
+            description = json.loads((other / "run.json").read_text())
+            for key in [key for key in description["files"] if key.endswith(name)]:
+                del description["files"][key]
+            (other / "run.json").write_text(json.dumps(description))
+            self.refused(words, path, study=other)
+            shutil.rmtree(other)
 
 
-class JudgeFrames(InFolder):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="homespun-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.study = pathlib.Path(folder.name) / "study"
-        result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells",
-                     CELLS / "layered.prm", "--duration", "0.1", "--quick", "--references", "biot",
-                     "--keep", "--no-report", "--no-frames", "--output", cls.study)
-        assert result.returncode in (0, 1, 4), result.stderr
-        cls.kept = cls.study / "layered" / "positions"
-        cls.rows = rows_of(cls.study / "drape.csv")
-
-    def judged(self, frames, name, study=None):
-        files = self.folder / name
-        files.mkdir()
-        for frame, positions in frames.items():
-            numpy.save(files / f"biot-{frame:04d}.npy", positions)
-        return run("judge", study or self.study, files, "--name", name, "--output",
-                   self.folder / f"judged-{name}", "--no-report")
+class JudgeFrames(JudgingFrames):
+    def write_frames(self, frames):
+        return [self.write(f"biot-{frame:04d}.npy", positions)
+                for frame, positions in frames.items()]
 
     def kept_frame(self, frame, what="reference"):
-        with h5py.File(self.kept / f"biot-{frame:04d}.h5") as file:
-            return file[what][...]
+        return self.kept_positions(f"biot-{frame:04d}", what)
 
     def test_frames_of_a_method_from_outside_have_the_errors_of_the_study(self):
         sys.path.insert(0, str(PEERS))
@@ -253,13 +216,22 @@ class JudgeFrames(InFolder):
             mesh = types.SimpleNamespace(**{name: file[name][...] for name in file})
         self.assertEqual(mesh.start.shape, (len(mesh.rest), 3))
         frames = {frame: flat(mesh)(self.kept_frame(frame, "coarse")) for frame in (0, 1, 2)}
-        result = self.judged(frames, "flat")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        judged, result = self.judged(*self.write_frames(frames), name="flat")
+        # Without an error bar its claims are open, and say so.
+        self.assertEqual(result.returncode, 4, result.stderr)
+        claims = json.loads((self.folder / "judged-flat" / "verdicts.json").read_text())["verdicts"]
+        for claim, other in zip(claims[-2:], ("affine", "localized")):
+            self.assertIn(f"biot: flat is closer than {other} (ratio", claim["claim"])
+            self.assertEqual(claim["verdict"], "INCONCLUSIVE")
+            self.assertIn("open: the reference has no error bar", claim["limit"])
+        self.assertAlmostEqual(claims[-2]["value"], 1., delta=1e-9)
+        self.assertRegex(result.stdout, "frame 0: .* side, error bar not known;")
         self.assertRegex(result.stdout, "biot, frame 2: .*; 1 of 2 methods of homespun are closer")
         rows = rows_of(self.folder / "judged-flat" / "drape.csv")
         self.assertEqual(rows[:len(self.rows)], self.rows)
         affine = [row for row in self.rows if row["method"] == "affine"]
         own = rows[len(self.rows):]
+        self.assertEqual(own, list(judged.values()))
         self.assertEqual(len(own), 3)
         for row, like in zip(own[1:], affine[1:]):
             for key in row:
@@ -269,8 +241,8 @@ class JudgeFrames(InFolder):
                     self.assertEqual(row[key], like[key])
 
     def test_a_shift_by_a_millionth_of_a_cell_is_seen(self):
-        self.judged({2: self.kept_frame(2) + [0., 0., 1e-8]}, "shifted")
-        own = rows_of(self.folder / "judged-shifted" / "drape.csv")[-1]
+        (own,) = self.judged(*self.write_frames({2: self.kept_frame(2) + [0., 0., 1e-8]}),
+                             name="shifted")[0].values()
         self.assertAlmostEqual(float(own["error_mean_m"]), 1e-8, delta=1e-15)
         # The fluctuation is what the coarse motion lacks, the side of the cell a centimetre.
         lacks = next(float(row["error_mean_m"]) for row in self.rows
@@ -280,21 +252,30 @@ class JudgeFrames(InFolder):
 
     def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
         good = self.kept_frame(2)
-        for name, frames, words in (
-                ("flat", {2: good[:, :2]}, "expected three components"),
-                ("short", {2: good[1:]}, f"expected ({len(good)}, 2) or ({len(good)}, 3)"),
-                ("metres", {2: 1e3 * good}, "expected positions in metres"),
-                ("late", {9: good}, "as in biot-0000.npy"),
-                ("affine", {2: good}, "no method of homespun")):
-            result = self.judged(frames, name)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(words, result.stderr)
-            self.assertFalse((self.folder / f"judged-{name}").exists())
+        for frames, words, *options in (
+                ({2: good[:, :2]}, "expected three components"),
+                ({2: good[1:]}, f"expected ({len(good)}, 2) or ({len(good)}, 3)"),
+                ({2: 1e3 * good}, "expected positions in metres"),
+                ({9: good}, "`biot-0009` is no level or frame of"),
+                ({2: good}, "--seconds: is of a level of `homespun strain`", "--seconds", 1),
+                ({2: good}, "no method, law or reference", "--name", "affine")):
+            files = self.write_frames(frames)
+            self.refused(words, *files, *options)
+            files[0].unlink()
+        file, = self.write_frames({2: good})
         without = self.folder / "without"
         shutil.copytree(self.study, without, ignore=shutil.ignore_patterns("positions"))
-        result = self.judged({2: good}, "mine", without)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("drape --keep", result.stderr)
+        self.refused("drape --keep", file, study=without)
+
+    def test_the_beginning_alone_is_judged_without_a_claim(self):
+        # There the coarse cloth is the resolved one, and the error is zero.
+        rows, result = self.judged(*self.write_frames({0: self.kept_frame(0)}))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(rows["biot-0000"]["error_mean_m"], "0")
+        self.assertIn("frame 0: 0 thousandths of a cell side, error bar not known; 0 of",
+                      result.stdout)
+        self.assertNotIn("claims hold", result.stdout)
+        self.assertNotIn("nan", result.stdout + result.stderr)
 
 
 if __name__ == "__main__":
