@@ -169,8 +169,8 @@ class Studies(WithFolder):
         self.refused(lambda: run.judge({level: wrong}, "mine"), "holds NaN")
         self.refused(lambda: run.judge_method(lambda coarse: coarse, "mine"), "expected (")
         self.refused(lambda: run.judge({("strip-1", 0.2, "biot"): run.rest}, "mine"),
-                     "is of no level")
-        self.refused(lambda: run.judge({level: run.rest}, "affine"), "no method of homespun")
+                     "is no level or frame of")
+        self.refused(lambda: run.judge({level: run.rest}, "affine"), "no method, law or reference")
         self.refused(lambda: run.reference("strip-1", 0.2, "biot"), "has no level",
                      "('strip-1', 0.1, 'biot')")
         self.refused(lambda: self.study(loads=["strip-3"]), "unknown load `strip-3`")
