@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/drape/drape_verdicts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -8,14 +9,18 @@ namespace homespun::verification
 {
 namespace
 {
+double bar_of(const DrapeRow &row)
+{
+  return row.uncertainty + row.time_step;
+}
+
 /// Means over the frames of one method [m].
 struct OverTime
 {
   std::set<int> frames;
   double error        = 0.;
   double displacement = 0.;
-  double bar          = 0.;    ///< not a number where that of some frame is not known
-  bool has_bars       = false; ///< of some frame
+  double bar          = 0.; ///< not a number where that of some frame is not known
 };
 
 /// @param among these frames alone; empty: all after the beginning
@@ -27,12 +32,10 @@ OverTime over_time(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
     if (row.cell == of.cell && row.reference == of.reference && row.method == method &&
         row.variant == of.variant && row.frame > 0 && (among.empty() || among.count(row.frame) > 0))
     {
-      const double bar = row.uncertainty + row.time_step;
       mean.frames.insert(row.frame);
       mean.error += row.mean;
       mean.displacement += row.displacement;
-      mean.bar += bar;
-      mean.has_bars = mean.has_bars || std::isfinite(bar);
+      mean.bar += bar_of(row);
     }
   for (double *const sum : {&mean.error, &mean.displacement, &mean.bar})
     *sum /= static_cast<double>(mean.frames.size());
@@ -53,10 +56,14 @@ Verdict verdict_of_closer(const std::vector<DrapeRow> &rows, const JudgedErrors 
                           const std::string &method, const std::string &other)
 {
   const OverTime one = over_time(rows, of, method), than = over_time(rows, of, other, one.frames);
+  const bool has_bars =
+    std::any_of(rows.begin(), rows.end(),
+                [&](const DrapeRow &row)
+                { return row.reference == of.reference && std::isfinite(bar_of(row)); });
   const double ratio = one.error / than.error, bar = (one.bar + than.bar) / than.error;
   const std::string why = than.frames != one.frames ? "not among the methods of these frames"
-                          : !one.has_bars ? "the reference has no error bar, and `left_out` in "
-                                            "drape.json says why"
+                          : !has_bars ? "the reference has no error bar, and `left_out` in "
+                                        "drape.json says why"
                           : !std::isfinite(bar) ? "of some frame an error bar is not known"
                                                 : "";
   return judged("closer-in-scene",

@@ -96,6 +96,10 @@ TEST(exact_drape_verdicts, a_method_that_has_few_frames_is_held_against_the_same
   EXPECT_NE(claim(rows, "full").limit.find("not among the methods"), std::string::npos);
   rows.back().uncertainty = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(claim(rows, "affine").outcome, open);
+  EXPECT_NE(claim(rows, "affine").limit.find("of some frame"), std::string::npos);
+  for (DrapeRow &row : rows)
+    row.uncertainty = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(claim(rows, "affine").outcome, open);
   EXPECT_NE(claim(rows, "affine").limit.find("the reference has no error bar"), std::string::npos);
 }
 
