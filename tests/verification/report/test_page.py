@@ -78,7 +78,7 @@ class WholePageTest(PageTest):
         lighter = dict(re.findall(r'"(#\w{6})": "(#\w{6})"', whole_page.own("plot_style.js")))
         shown = {curve.get("colour", "#888888").lower() for panels in page_checks.data_of(self.text, "plot-data")
                  for panel in panels for curve in panel["curves"] if not curve.get("fill")}
-        shown |= {colour.lower() for colour in (*style.COLOUR_NAMES, *style.SPARE_COLOURS)}
+        shown |= {colour.lower() for colour in (*style.COLOUR_NAMES, *style.SPARE_COLOURS, *style.OWN_COLOURS)}
         self.assertIn("#332288", shown)
         ground = luminance("#14171a")  # of report.css
         for colour in shown:  # 3:1 is what WCAG 2.1, 1.4.11, asks of graphics

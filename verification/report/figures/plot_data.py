@@ -105,7 +105,7 @@ def curve_of(line, axes):
             if hollow
             else line.get_markerfacecolor()
         ),
-        "dash": DASHES.get(line.get_linestyle(), []),
+        "dash": getattr(line, "dashes", DASHES.get(line.get_linestyle(), [])),
         "width": number(line.get_linewidth()),
         "marker": marker if isinstance(marker, str) and marker not in ("None", "", " ") else "",
         "hollow": hollow,
@@ -139,6 +139,14 @@ def words_of(axes):
     ]
 
 
+def own_ticks(axis):
+    """The places that an axis names in place of round numbers, if it does."""
+    locator = axis.get_minor_locator()
+    if not isinstance(locator, FixedLocator):
+        return {}
+    return {"ticks": [number(place) for place in locator()]}
+
+
 def panel_of(axes):
     curves = [curve_of(line, axes) for line in axes.lines]
     for area in axes.collections:
@@ -160,11 +168,12 @@ def panel_of(axes):
         "title": plain(axes.get_title(loc="left") or axes.get_title()),
         **{
             key: {
+                **own_ticks(axis),
                 "label": plain(getattr(axes, f"get_{key}label")()),
                 "log": getattr(axes, f"get_{key}scale")() == "log",
                 "range": [number(v) for v in low_high[key]],
             }
-            for key in "xy"
+            for key, axis in (("x", axes.xaxis), ("y", axes.yaxis))
         },
         "curves": [curve for curve in curves if curve],
         "words": words_of(axes),

@@ -7,15 +7,16 @@ own uncertainty (an error inside it is not resolved), the vertical line 1 % stra
 import math
 
 import numpy
-from matplotlib import pyplot
+from matplotlib import pyplot, ticker
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
-from figures.plot_data import ROUND_OFF_NOTE, band
+from figures.plot_data import DASHES, ROUND_OFF_NOTE, band
 from read import schema
 
 MARKED_STRAIN = 0.01  # real textiles hardly stretch more under their own weight
+FEW = 4  # strains that are all named at the axis
 
 
 def series(rows, key, factor=1.0):
@@ -64,10 +65,14 @@ def slope_triangle(axes, strain, value, slope):
 
 
 def curve_style(method, methods, reference, references):
-    """(line style, marker) of a curve: of its law where there are several, else of its method."""
-    if len(references) > 1:
-        return style.reference_style(reference)
-    return style.method_style(method, methods)
+    """(line style, marker) of a curve: of its law where there are several, else of its method; the
+    line of a judged method is always its own.
+    """
+    of_method = style.method_style(method, methods)
+    if len(references) < 2:
+        return of_method
+    line, marker = style.reference_style(reference)
+    return of_method[0] if style.is_judged(method) else line, marker
 
 
 def bars_of_smallest(rows, methods, references):
@@ -110,7 +115,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                 continue
             line, marker = curve_style(method, methods, reference, references)
             colour = style.method_colour(method, methods)
-            axes.plot(
+            (curve,) = axes.plot(
                 100 * strain,
                 numpy.where(low, floor, value),
                 ls=line,
@@ -121,6 +126,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                 markeredgewidth=1,
                 label=f"{method} against {reference}",
             )
+            curve.dashes = DASHES[line] if line in DASHES else list(line[1])
             if low.any():
                 at_floor = True
                 axes.plot(
@@ -167,11 +173,36 @@ def limits(rows, key, factor):
     return lower, upper
 
 
+def close_limits(rows, key, factor):
+    """limits() with ends at 1, 2 or 5 times a power of ten, where two such powers lie between."""
+    lower, upper = limits(rows, key, factor)
+    values = [factor * row[key] for row in rows if factor * row[key] > lower]
+    steps = sorted(n * 10.0**k for n in (1, 2, 5)
+                   for k in range(round(math.log10(lower)), round(math.log10(upper)) + 1))
+    if not values or any(row["error_mean_per_cell"] < style.ROUND_OFF for row in rows):
+        return lower, upper  # whose lower edge is for round-off
+    low = max((step for step in steps if 1.1 * step <= min(values)), default=lower)
+    high = min((step for step in steps if step >= 1.2 * max(values)), default=upper)
+    whole = math.floor(math.log10(1.001 * high)) - math.ceil(math.log10(0.999 * low))
+    return (low, high) if whole > 0 else (lower, upper)
+
+
+def name_few_strains(axes, strains):
+    """Ticks at the strains themselves where these are few; else they are those of log_axes()."""
+    if len(strains) <= FEW:
+        axes.xaxis.set_major_locator(ticker.NullLocator())
+        axes.xaxis.set_minor_locator(ticker.FixedLocator([100 * strain for strain in strains]))
+        axes.xaxis.set_minor_formatter(lambda x, _: f"{x:g}")
+        axes.grid(axis="x", which="minor")
+
+
 def legend(figure, methods, references, uncertainty, at_floor):
     one_law = len(references) == 1
     entries = []
     for m in methods:
-        line, marker = style.method_style(m, methods) if one_law else ("-", None)
+        line, marker = style.method_style(m, methods)
+        if not one_law:
+            line, marker = line if style.is_judged(m) else "-", None
         entries.append(
             Line2D(
                 [],
@@ -257,10 +288,11 @@ def error_figure(
     )
     for group, line in zip(groups, grid):
         group_rows = [row for row in rows if row["load"] in group]
-        lower, upper = limits(group_rows, key, factor)
+        lower, upper = close_limits(group_rows, key, factor)
         for axes, load in zip(line, group):
             at_floor |= draw_panel(axes, rows, load, methods, references, key, factor, lower, side)
             axes.set_ylim(lower, upper)
+            name_few_strains(axes, sorted({row["strain"] for row in rows}))
             axes.tick_params(labelleft=axes is line[0], labelbottom=True)
             axes.set_xlabel("strain [%]")
         line[0].set_ylabel(

@@ -44,10 +44,12 @@ METHOD_COLOURS = {
 }
 METHOD_LABELS = {"localized": "localized (the paper's method)",
                  "base": "base: the coarse cloth of full, not up-sampled"}
-SPARE_COLOURS = ("#332288", "#44AA99", ORANGE, PURPLE)
+SPARE_COLOURS = ("#332288", "#44AA99", "#8A3A00", "#117733")
+OWN_COLOURS = (PURPLE, ORANGE)  # of methods that were judged
 COLOUR_NAMES = {VERMILLION: "orange", BLUE: "blue", "#999933": "olive", "#882255": "wine",
                 SKY: "light blue", BLACK: "black", "#332288": "indigo", "#44AA99": "teal",
-                GREEN: "green", ORANGE: "yellow", PURPLE: "pink"}
+                GREEN: "green", ORANGE: "yellow", PURPLE: "pink",
+                "#8A3A00": "brown", "#117733": "dark green"}
 
 # Line style and marker of the methods where one law is shown: they survive black and white.
 METHOD_STYLES = {
@@ -56,7 +58,8 @@ METHOD_STYLES = {
     "localized+p2": ("-.", "v"), "localized+edges": ("--", "P"),
     "localized+cubic+modes": (":", "X"),
 }
-SPARE_METHOD_STYLES = (("-.", "<"), ("--", ">"), (":", "*"), ("-", "p"))
+SPARE_METHOD_STYLES = (("-.", "<"), ("--", ">"), (":", "X"), ("-", "p"))
+OWN_STYLES = (((0, (7, 2, 1, 2, 1, 2)), "*"), ((0, (10, 2)), "h"), ((0, (3, 1)), "p"))
 
 # Line style, marker and colour of the reference laws, in the order of the schema.
 LAW_STYLES = ((":", "s", BLACK), ("-", "o", BLUE), ("--", "^", VERMILLION), ("-.", "v", PURPLE))
@@ -100,12 +103,26 @@ def use():
     matplotlib.rcParams.update(RC)
 
 
+def is_judged(method):
+    """Whether a method has none of the looks of homespun's: somebody's own, that was judged."""
+    return method not in METHOD_COLOURS and not schema.is_of_homespun(method)
+
+
+def place_of(method, methods):
+    """Place of a method among those of its kind that take spare looks in turn: that of a judged
+    method does not change with what else is shown.
+    """
+    some = [name for name in methods
+            if name not in METHOD_COLOURS and is_judged(name) == is_judged(method)]
+    return some.index(method) if method in some else 0
+
+
 def method_colour(method, methods=()):
     """Colour of a method; methods that the report does not know take the spare colours in turn."""
     if method in METHOD_COLOURS:
         return METHOD_COLOURS[method]
-    unknown = [name for name in methods if name not in METHOD_COLOURS]
-    return SPARE_COLOURS[unknown.index(method) % len(SPARE_COLOURS)] if method in unknown else BLACK
+    colours = OWN_COLOURS if is_judged(method) else SPARE_COLOURS
+    return colours[place_of(method, methods) % len(colours)] if method in methods else BLACK
 
 
 def colour_name(method, methods=()):
@@ -117,8 +134,8 @@ def method_style(method, methods=()):
     """(line style, marker) of a method."""
     if method in METHOD_STYLES:
         return METHOD_STYLES[method]
-    unknown = [name for name in methods if name not in METHOD_STYLES] or [method]
-    return SPARE_METHOD_STYLES[unknown.index(method) % len(SPARE_METHOD_STYLES)]
+    styles = OWN_STYLES if is_judged(method) else SPARE_METHOD_STYLES
+    return styles[place_of(method, methods) % len(styles)]
 
 
 def line_of(number):

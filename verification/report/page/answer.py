@@ -19,7 +19,7 @@ from page.headline import (
     infinite_line,
     own_methods_sentence,
 )
-from page.words import capital, change_of, listed, share
+from page.words import capital, change_of, judged_sentence, listed, share
 from read import schema
 from read.budget_results import base_rows, levels
 from read.results import cell_side
@@ -91,6 +91,7 @@ def answer_of(results, name, gallery):
     chosen = {load: main_method({r["method"] for r in here if r["load"] == load})
               for load in {r["load"] for r in here}}
     spoken_of = style.ordered_methods(chosen.values())
+    own = style.ordered_methods(r["method"] for r in rows if not schema.is_of_homespun(r["method"]))
     figure, _ = error_figure(
         *as_homespun(rows, base_rows(rows, gains), chosen), [reference], side, panel=PANEL
     )
@@ -124,7 +125,8 @@ def answer_of(results, name, gallery):
             f" ({PAPER})"
             + (f", homespun ({listed(spoken_of)}) and its coarse cloth, not up-sampled"
                if spoken_of != [PAPER] else "")
-            + ". Grey: not resolved by the reference. All laws and variants stand below.",
+            + "." + judged_sentence(own)
+            + " Grey: not resolved by the reference. All laws and variants stand below.",
             plotted=False,
         ),
     }

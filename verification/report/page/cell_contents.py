@@ -19,10 +19,11 @@ from page.bending_contents import bending_contents
 from page.budget_contents import budget_contents
 from page.force_contents import force_contents
 from page.gallery import file_name
+from page.words import judged_sentence
 from read.budget_results import base_rows
 from read.cell_results import grouped, read_fields
 from read.results import BadResults, cell_side
-from read.schema import main_method
+from read.schema import is_of_homespun, main_method
 from read.verdicts import MARKS, WORDS
 
 
@@ -191,8 +192,9 @@ def draw_strain(contents, rows_and_bases, methods, reference, side, gallery):
     spoken_of = {"affine", "localized"} | {
         main_method(some) for some in of_load.values()
     }
+    own = [method for method in methods if not is_of_homespun(method)]
     main = [method for method in methods if method in spoken_of] or methods
-    main = style.ordered_methods([*main, *{row["method"] for row in of_base}])
+    main = style.ordered_methods([*main, *own, *{row["method"] for row in of_base}])
     references = style.ordered_references(row["reference"] for row in rows)
     floor = f" Triangles at the lower edge: below {style.ROUND_OFF_TEXT}, zero to round-off."
     figure, at_floor = error_figure(rows + of_base, main, references, side)
@@ -201,7 +203,7 @@ def draw_strain(contents, rows_and_bases, methods, reference, side, gallery):
         f"{name}-error-strain",
         f"{name}: mean error per vertex, in cell sides, against strain. Grey: an error in this area"
         " is not larger than the reference's own uncertainty (the largest of the laws shown)."
-        + (floor if at_floor else ""),
+        + judged_sentence(own) + (floor if at_floor else ""),
     )
     figure, at_floor = error_figure(
         rows + of_base, main, references, side, "error_mean_per_fluctuation"
@@ -213,7 +215,7 @@ def draw_strain(contents, rows_and_bases, methods, reference, side, gallery):
         "the fine vertices of |reference − homogenized sheet resolved on a fine mesh|."
         + (floor if at_floor else ""),
     )
-    variants = [method for method in methods if method not in spoken_of]
+    variants = [method for method in methods if method not in spoken_of.union(own)]
     if variants:
         shown = [method for method in methods if method != "affine"]
         figure, at_floor = error_figure(rows, shown, [reference], side)

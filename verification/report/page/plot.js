@@ -37,7 +37,8 @@
         return style.linear_tick(value, this.ticks.map((tick) => tick.value));
       } },
     afterBuildTicks: (scale) => {
-      if (is_log) scale.ticks = style.log_ticks(scale.min, scale.max).map((value) => ({ value }));
+      const told = (description.ticks || []).filter((value) => value >= scale.min && value <= scale.max);
+      if (is_log) scale.ticks = (told.length > 1 ? told : style.log_ticks(scale.min, scale.max)).map((value) => ({ value }));
     } });
 
   // What stands beside the pointer: the curve, then each quantity with its unit.

@@ -2,6 +2,8 @@
 """Words that several sentences of the page share: a list, a share, a change in percent."""
 import math
 
+from figures import style
+
 
 def listed(words):
     """a, b and c."""
@@ -27,3 +29,14 @@ def share(value):
     if whole in ("0", "100"):
         return f"{100.0 * value:.2g}" if value < 0.5 else f"{100.0 * value:.4g}"
     return whole
+
+
+def judged_sentence(own):
+    """Which curves are of judged methods, after a space; empty without any.
+
+    @param own names of all judged methods
+    """
+    if not own:
+        return ""
+    names = listed(f"`{name}` ({style.colour_name(name, own)})" for name in own)
+    return f" No method of homespun, but judged: {names}."
