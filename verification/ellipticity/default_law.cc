@@ -21,6 +21,18 @@ double degrees_of(const Eigen::Vector2d &line)
   const double angle = std::atan2(line(1), line(0)) * 180. / M_PI;
   return std::fmod(std::round((angle - 180. * std::floor(angle / 180.)) * 1e6) / 1e6, 180.);
 }
+
+/// Why the default law is what it is.
+std::string reason_of_default(const UnitCell &cell)
+{
+  const PhaseLoss loss = first_loss_of_biot(cell);
+  if (loss.strain == never)
+    return "under biot no phase that is pulled along its axes stops being elliptic";
+  return "under biot phase " + loss.phase + ", pulled along " + axis_text(loss) +
+         ", is elliptic up to " + percent_text(loss.strain) + " (E/G " + short_text(loss.ratio) +
+         "), " + (loss.strain < largest_strain_of_cloth ? "less" : "more") + " than " +
+         percent_text(largest_strain_of_cloth);
+}
 } // namespace
 
 std::string axis_text(const PhaseLoss &loss)
@@ -97,14 +109,17 @@ std::string note_on_corotational_cloth(const Eigen::Matrix3d &C)
 
 std::string note_on_default_law(const UnitCell &cell)
 {
-  const PhaseLoss loss = first_loss_of_biot(cell);
-  const std::string is = cell.name + ": the law is " + name_of(default_law(cell)) +
-                         ", as none was asked for: under biot ";
-  if (loss.strain == never)
-    return is + "no phase that is pulled along its axes stops being elliptic";
-  return is + "phase " + loss.phase + ", pulled along " + axis_text(loss) + ", is elliptic up to " +
-         percent_text(loss.strain) + " (E/G " + short_text(loss.ratio) + "), " +
-         (loss.strain < largest_strain_of_cloth ? "less" : "more") + " than " +
-         percent_text(largest_strain_of_cloth);
+  return cell.name + ": the law is " + name_of(default_law(cell)) +
+         ", as none was asked for: " + reason_of_default(cell);
+}
+
+std::string note_on_default_references(const UnitCell &cell)
+{
+  const Law law           = default_law(cell);
+  const auto names        = default_references(cell);
+  const std::string other = name_of(law == Law::biot ? Law::yarn : Law::biot);
+  return cell.name + ": the references are " + names[0] + ", " + names[1] + " and " + names[2] +
+         ", as none was asked for; " + name_of(law) + " and not " + other + ": " +
+         reason_of_default(cell);
 }
 } // namespace homespun::verification

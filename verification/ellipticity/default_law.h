@@ -61,4 +61,7 @@ std::string note_on_corotational_cloth(const Eigen::Matrix3d &C);
 
 /// A sentence on the default law: which, and why.
 std::string note_on_default_law(const homogenization::UnitCell &cell);
+
+/// A sentence on the default references: which, and why yarn or biot is among them.
+std::string note_on_default_references(const homogenization::UnitCell &cell);
 } // namespace homespun::verification

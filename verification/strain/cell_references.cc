@@ -48,7 +48,7 @@ std::vector<std::string> notes_on_references(const StrainStudyOptions &asked,
   if (!asked.references.empty())
     return notes;
   for (const UnitCell &cell : cells)
-    notes.push_back(note_on_default_law(cell));
+    notes.push_back(note_on_default_references(cell));
   return notes;
 }
 } // namespace homespun::verification

@@ -88,6 +88,13 @@ TEST(exact_default_law, weaves_have_yarn_and_all_other_shipped_cells_biot)
       homogenization::read_unit_cell(std::string(CELLS) + name + ".prm", MPI_COMM_SELF);
     EXPECT_EQ(default_law(cell), law) << name;
     EXPECT_NE(note_on_default_law(cell).find("the law is " + name_of(law)), std::string::npos);
+    const std::string laws =
+      law == Law::biot
+        ? "linear, biot and green, as none was asked for; biot and not yarn: under biot"
+        : "linear, yarn and green, as none was asked for; yarn and not biot: under biot";
+    EXPECT_EQ(note_on_default_references(cell).find(name), 0);
+    EXPECT_NE(note_on_default_references(cell).find(": the references are " + laws),
+              std::string::npos);
   }
 }
 
