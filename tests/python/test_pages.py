@@ -39,7 +39,8 @@ class Shown(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
             os.symlink(SOURCE / "meshes", pathlib.Path(folder, "meshes"))
             said = self.run_python("import homespun\nimport numpy\n" + code, folder)
-            self.assertRegex(said, r"(?m)^mine: error in 1/1000 of strain x cell side")
+            self.assertRegex(said, r"(?m)^mean errors in 1/1000 of strain x cell side")
+            self.assertRegex(said, r"(?m)^strip-1 +biot +10 % .* ± .* rank 9 of 9$")
             page = pathlib.Path(folder, said.splitlines()[-1])
             self.assertEqual(page.name, "report.html")
             self.assertIn("mine", page.read_text(encoding="utf-8"))

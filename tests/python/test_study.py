@@ -2,6 +2,7 @@
 """Studies from Python: the program's numbers for somebody's own method, its messages as errors."""
 import contextlib
 import io
+import re
 import subprocess
 import sys
 import unittest
@@ -95,9 +96,20 @@ class Studies(WithFolder):
             self.assertAlmostEqual(row["error_mean_m"] / affine["error_mean_m"], 1.0, delta=1e-9)
             self.assertGreater(row["seconds_method"], 0.0)
         self.assertIn("4 levels, run times are medians of 5 calls", self.quiet.getvalue())
-        text = repr(judged)
-        self.assertIn("flat: error in 1/1000 of strain x cell side", text)
-        self.assertEqual(len(text.splitlines()), 5)
+        lines = repr(judged).splitlines()
+        self.assertIn("mean errors in 1/1000 of strain x cell side", lines[0])
+        self.assertEqual(lines[1].split(), ["load", "law", "strain", "flat", "affine", "localized"])
+        self.assertEqual(len(lines), 6)
+        for line, row, rank in zip(lines[2:], judged.rows, judged.ranks):
+            error, affine, localized = re.fullmatch(
+                r"\S+ +biot +(?:1|10) % +(\S+) ± \S+ +(\S+) +(\S+) +rank . of 3",
+                line).groups()
+            self.assertTrue(line.endswith(f"rank {rank} of 3"), line)
+            here = table[(table["load"] == row["load"]) & (table["strain"] == row["strain"])]
+            for text, method in ((affine, "affine"), (localized, "localized")):
+                known = here["error_mean_m"][here["method"] == method][0]
+                self.assertAlmostEqual(float(text) / float(error),
+                                       known / row["error_mean_m"], delta=1e-3)
 
     def test_what_a_method_gives_is_its_level_s_even_if_it_gives_one_array_again(self):
         run, out = self.run_, numpy.empty_like(self.run_.rest)
@@ -131,7 +143,7 @@ class Studies(WithFolder):
         between = numpy.array([0.5 * (errors[0] + errors[1]), 0.0])
         for shift, rank in ((0.0, 1), (between, 2), (4.0 * between, 3)):
             judged = run.judge({level: run.reference(*level) + shift}, "shifted")
-            self.assertEqual(judged.ranks.tolist(), [rank])
+            self.assertEqual((judged.ranks.tolist(), judged.n_methods.tolist()), ([rank], [3]))
             if rank == 1:  # an error of zero is known to the bar of the reference, not better
                 self.assertRegex(repr(judged), r" 0 ± 0?\.?[1-9]")
 
@@ -162,18 +174,68 @@ class Studies(WithFolder):
             with unittest.mock.patch.object(module, "program", lambda: str(program)):
                 self.refused(lambda: self.run_.judge({}, "mine"), *texts, kind=kind)
 
+    def test_a_name_is_checked_before_a_method_is_called(self):
+        run, called = self.run_, []
+        good = "expected letters, digits and _, and no method"
+        for name in ("my method", "", "my-method", "mein_ä", "affine", "biot"):
+            for judge in (lambda name: run.judge_method(called.append, name),
+                          lambda name: run.judge({}, name)):
+                self.refused(lambda: judge(name), f"name: found `{name}`; {good}")
+        self.assertEqual(called, [])
+        with self.assertRaises(ValueError) as caught:  # of the program, and not of this run
+            run.judge({run.levels[0]: run.reference(*run.levels[0])}, "full")
+        self.assertRegex(str(caught.exception), "^name: found `full`; expected letters")
+
+    def test_a_result_that_is_no_array_of_positions_is_refused_at_the_first_level(self):
+        run, n = self.run_, len(self.run_.sheet.rest)
+        n_cell = len(run.periodic.rest)
+        for argument, wrong, found in (
+                ("method", lambda coarse: coarse, r"shape \(25, 2\) and type float64"),
+                ("method", lambda coarse: None, r"shape \(\) and type object"),
+                ("method", lambda coarse: numpy.zeros((n, 2), dtype=int),
+                 rf"shape \({n}, 2\) and type int"),
+                ("periodic", lambda coarse: run.rest, rf"shape \({n}, 2\) and type float64")):
+            called = []
+            methods = {"method": carried(run.sheet), "periodic": None, argument: lambda coarse: (
+                called.append(coarse), wrong(coarse))[1]}
+            with self.assertRaises(homespun.BadInput) as caught:
+                run.judge_method(methods["method"], "mine", periodic=methods["periodic"])
+            expected = n if argument == "method" else n_cell
+            self.assertRegex(str(caught.exception),
+                             rf"^{argument}: returned an array of {found}\S* for \('[a-z]+-11?', "
+                             rf"0\.01, 'biot'\); expected shape \({expected}, 2\) or "
+                             rf"\({expected}, 3\)")
+            self.assertEqual(len(called), 1)
+
+    def test_the_commands_of_the_page_name_no_file_that_is_gone(self):
+        run, level = self.run_, ("strip-1", 0.1, "biot")
+        judged = run.judge({level: run.reference(*level) + [1e-6, 0.0]}, "mine")
+        for name in ("study.json", "verdicts.json"):
+            text = (judged.folder / name).read_text(encoding="utf-8")
+            self.assertIn(f"homespun judge {run.folder} YOURS.csv --name mine", text)
+            self.assertNotIn("/homespun-", text.replace(str(self.folder), ""))
+
+    def test_options_come_to_what_a_study_leaves_out(self):
+        module, said = sys.modules[homespun.Study.__module__], []
+        with unittest.mock.patch.object(module, "_run", lambda words, _: said.append(words)):
+            self.study(options=["--overwrite"])
+            self.study(also=["budget"])
+        for words, there in zip(said, ({"--no-budget", "--no-runtime", "--overwrite"},
+                                       {"--no-runtime"})):
+            self.assertEqual(there, {"--no-budget", "--no-runtime", "--overwrite"} & set(words))
+
     def test_faults_are_the_messages_of_the_program(self):
         run, level = self.run_, ("strip-1", 0.1, "biot")
         wrong = run.reference(*level)
         wrong[3, 1] = numpy.nan
         self.refused(lambda: run.judge({level: wrong}, "mine"), "holds NaN")
-        self.refused(lambda: run.judge_method(lambda coarse: coarse, "mine"), "expected (")
         self.refused(lambda: run.judge({("strip-1", 0.2, "biot"): run.rest}, "mine"),
                      "is no level or frame of")
         self.refused(lambda: run.judge({level: run.rest}, "affine"), "no method, law or reference")
         self.refused(lambda: run.reference("strip-1", 0.2, "biot"), "has no level",
                      "('strip-1', 0.1, 'biot')")
         self.refused(lambda: self.study(loads=["strip-3"]), "unknown load `strip-3`")
+        self.refused(lambda: self.study(also=["budgets"]), "also: found budgets; expected some of")
         # Without --resume a run of seconds is replaced.
         self.refused(lambda: self.study(strains=[0.02], options=["--resume"]),
                      "holds another run")
