@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One include, one call: a square cloth of three by three cells is turned and moved, and its fine
-// vertices with it, as chi adds nothing to a cloth without strain.
+// One include, one call: a square cloth of three by three cells of the laminate of make_cell.cc. A
+// rigid motion moves its fine vertices rigidly; pulled by e across the stripes, 1 to 10 in
+// stiffness, their border moves by (20/11 − 1) / 2 = 9/22 of e times the cell's side.
 //   one_call CELL.h5
 #include <homespun/homespun.h>
 #include <homespun/meshes/files/cell_file.h>
@@ -27,11 +28,19 @@ try
   const homespun::UpsampledCloth fine = homespun::upsample(V, F, cell, rest);
   const double off                    = fine.positions.col(1).cwiseAbs().maxCoeff(),
                low                    = std::abs(fine.positions.col(2).minCoeff() - 1.),
-               high                   = std::abs(fine.positions.col(2).maxCoeff() - 1. - side);
-  std::cout << fine.triangles.rows() << " triangles, off by " << std::max({off, low, high})
-            << " m\n";
+               high                   = std::abs(fine.positions.col(2).maxCoeff() - 1. - side),
+               rigid                  = std::max({off, low, high});
+
+  const double e     = 0.01;
+  const auto at_rest = homespun::upsample(V, F, cell, rest).positions;
+  V.col(0) *= 1. + e;
+  const auto pulled  = homespun::upsample(V, F, cell, rest).positions;
+  const double moved = (pulled.col(0) - (1. + e) * at_rest.col(0)).maxCoeff() / (e * side / 3.);
+  std::cout << fine.triangles.rows() << " triangles, a rigid motion off by " << rigid
+            << " m, the border of stripes moved by " << moved << " e times the cell's side\n";
   return fine.triangles.rows() >= 9 * cell.mesh.n_triangles() &&
-             fine.material.size() == fine.triangles.rows() && std::max({off, low, high}) < 1e-6
+             fine.material.size() == fine.triangles.rows() && rigid < 1e-6 &&
+             std::abs(moved - 9. / 22.) < 1e-3
            ? 0
            : 1;
 }
