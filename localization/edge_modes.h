@@ -30,21 +30,19 @@ struct EdgeSlip
   std::vector<Source> sources;                             ///< none: there is no slip
   Eigen::SparseMatrix<double, Eigen::RowMajor> of_sources; ///< (n_coarse, sources); rows add to 1
 
-  /// What each coarse vertex is moved by [m].
+  /// L d E of each source [m].
   /// @param records of the coarse vertices, `size` numbers each: position, E, L row by row
   template <int dim, typename Scalar>
-  Positions<dim> moves(const Scalar *const records, const int size) const
+  void evaluate(const Scalar *const records, const int size, Positions<dim> &moves) const
   {
-    Positions<dim> of_source(static_cast<Eigen::Index>(sources.size()), dim);
+    moves.resize(static_cast<Eigen::Index>(sources.size()), dim);
     for (std::size_t k = 0; k < sources.size(); ++k)
     {
       const Scalar *const E = records + sources[k].vertex * size + dim;
       const Eigen::Map<const Eigen::Matrix<Scalar, dim, 2, Eigen::RowMajor>> L(E + 3);
-      of_source.row(static_cast<Eigen::Index>(k)) =
-        (L.template cast<double>() * (sources[k].d * Eigen::Vector3d(E[0], E[1], E[2])))
-          .transpose();
+      const Eigen::Vector2d along             = sources[k].d * Eigen::Vector3d(E[0], E[1], E[2]);
+      moves.row(static_cast<Eigen::Index>(k)) = (L.template cast<double>() * along).transpose();
     }
-    return of_sources * of_source;
   }
 };
 

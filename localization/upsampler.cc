@@ -215,11 +215,13 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
 template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::add_slip(const PositionsOf<dim> coarse_current) const
 {
-  const int size             = record_size(kind_of_modes(options));
-  const Positions<dim> moved = coarse_current + slip.moves<dim>(records.data(), size);
-  for (Eigen::Index v = 0; v < moved.rows(); ++v)
+  const int size = record_size(kind_of_modes(options));
+  slip.evaluate(records.data(), size, moves_of_edges);
+  moves.noalias() = slip.of_sources * moves_of_edges;
+  for (Eigen::Index v = 0; v < moves.rows(); ++v)
     for (int i = 0; i < dim; ++i)
-      records[static_cast<std::size_t>(v * size + i)] = static_cast<Scalar>(moved(v, i));
+      records[static_cast<std::size_t>(v * size + i)] =
+        static_cast<Scalar>(coarse_current(v, i) + moves(v, i));
 }
 
 template <int dim, typename Scalar>

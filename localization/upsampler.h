@@ -138,7 +138,8 @@ private:
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< of placed vertices: positions by rest vertex
   meshes::FittedResponse fitted;           ///< where the options take fitted modes
-  EdgeSlip slip;                           ///< where it is added
-  mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
+  mutable Positions<dim> moves_of_edges, moves; ///< by slip, of its sources and coarse vertices
+  EdgeSlip slip;                                ///< where it is added
+  mutable std::vector<Scalar> records;          ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization

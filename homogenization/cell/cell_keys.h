@@ -18,7 +18,7 @@ struct CellKeys
 {
   std::string mesh;
   std::string length_unit = "0.01";
-  std::string young, poisson, thickness, density, orthotropic;
+  std::string young, poisson, thickness, density, orthotropic, layers;
   std::string lattice = "auto", tolerance = "auto", slits = "refused";
 
   /// Adds all keys; their values go here.

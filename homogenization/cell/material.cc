@@ -12,6 +12,38 @@ Phase isotropic(const std::string &name, const double E, const double nu, const 
   return {name, E, E, nu, E / (2. * (1. + nu)), 0., thickness, density};
 }
 
+Phase layered(const std::string &name, const std::vector<Layer> &layers, const double density)
+{
+  double thickness = 0.;
+  Eigen::Array2d A = Eigen::Array2d::Zero(), B = A, D = A; // of a11 + a12, a11 − a12
+  for (const Layer &layer : layers)
+  {
+    const Eigen::Array2d Q = layer.E / Eigen::Array2d(1. - layer.nu, 1. + layer.nu);
+    const double t = layer.thickness, z = thickness + 0.5 * t;
+    A += t * Q;
+    B += t * z * Q;
+    D += (t * z * z + t * t * t / 12.) * Q;
+    thickness += t;
+  }
+  D -= B * B / A;
+  // q+ = E/(1 − nu), q- = E/(1 + nu).
+  const auto poisson = [](const Eigen::Array2d &q) { return (q(0) - q(1)) / q.sum(); };
+  const auto young   = [](const Eigen::Array2d &q) { return 2. * q.prod() / q.sum(); };
+  Phase phase        = isotropic(name, young(A) / thickness, poisson(A), thickness, density);
+  phase.plate =
+    Plate{12. / (thickness * thickness * thickness) * young(D), poisson(D), B.sum() / A.sum()};
+  return phase;
+}
+
+double coupling(const Phase &phase, const Phase &other)
+{
+  const auto neutral = [](const Phase &of)
+  { return of.plate ? of.plate->neutral : 0.5 * of.thickness; };
+  const double h = neutral(phase) - neutral(other);
+  return std::abs(h) /
+         std::sqrt(h * h + bending_stiffness(phase)(0, 0) / plane_stress_stiffness(phase)(0, 0));
+}
+
 Eigen::Matrix3d stiffness_rotation(const double angle)
 {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -38,7 +70,10 @@ Eigen::Matrix3d plane_stress_stiffness(const Phase &phase)
 
 Eigen::Matrix3d bending_stiffness(const Phase &phase)
 {
-  return phase.thickness * phase.thickness / 12. * plane_stress_stiffness(phase);
+  const Phase bent = phase.plate ? isotropic(phase.name, phase.plate->E, phase.plate->nu,
+                                             phase.thickness, phase.density)
+                                 : phase;
+  return phase.thickness * phase.thickness / 12. * plane_stress_stiffness(bent);
 }
 
 std::vector<std::string> faults_of(const Phase &phase)

@@ -107,6 +107,8 @@ bool is_isotropic(const Phase &phase)
 std::vector<MaterialConstant> constants_of(const Phase &phase)
 {
   using Constant = MaterialConstant;
+  if (phase.plate)
+    return {};
   if (is_isotropic(phase))
     return {Constant::E, Constant::nu, Constant::thickness};
   return {Constant::E1,  Constant::E2,        Constant::nu12,

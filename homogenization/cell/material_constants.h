@@ -34,7 +34,7 @@ std::string unit_of(MaterialConstant constant);
 bool is_isotropic(const Phase &phase);
 
 /// E, nu and the thickness of an isotropic phase; all others and the thickness of an orthotropic
-/// one.
+/// one; none of one that has layers.
 std::vector<MaterialConstant> constants_of(const Phase &phase);
 
 /// In its unit.

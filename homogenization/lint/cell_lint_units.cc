@@ -24,6 +24,9 @@ constexpr double softest = 0.1, stiffest = 1e8;
 /// Mass per area: from tulle to leather armour [kg/m^2].
 constexpr double lightest = 1e-3, heaviest = 100.;
 
+/// |B|/sqrt(A D), which is between 0 and 1: its square is the part of D that the coupling changes.
+constexpr double largest_coupling = 0.2;
+
 /// The stiffness in double precision keeps 16 digits: beyond this contrast half of them at most are
 /// left for the soft phase.
 constexpr double large_contrast = 1e8;
@@ -114,6 +117,21 @@ std::vector<Finding> lint_phases(const UnitCell &cell, const double side)
       remedy << "expected " << lightest << " to " << heaviest
              << ": `Density` is in kg/m^3, 1 g/cm^3 is 1000";
       warn(p, "mass", text.str(), remedy.str());
+    }
+    // Where layers end, the neutral surface jumps, and a cloth that bends is stretched.
+    const auto farthest = std::max_element(cell.phases.begin(), cell.phases.end(),
+                                           [&](const Phase &one, const Phase &other) {
+                                             return coupling(phase, one) < coupling(phase, other);
+                                           });
+    if (const double ratio = coupling(phase, *farthest); phase.plate && ratio > largest_coupling)
+    {
+      std::ostringstream text;
+      text << "has another neutral surface than phase `" << farthest->name
+           << "`: B/sqrt(A D) of its entries 11 about that one is " << ratio;
+      std::ostringstream remedy;
+      remedy << "expected at most " << largest_coupling
+             << ": C^H and D^H leave out that this cell stretches where it bends";
+      warn(p, "layers", text.str(), remedy.str());
     }
   }
   return findings;

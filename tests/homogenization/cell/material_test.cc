@@ -49,6 +49,57 @@ TEST(invariant_material, plane_stress_stays_regular_at_incompressibility)
   }
 }
 
+TEST(exact_material, layers_bend_about_their_neutral_surface)
+{
+  // One layer cut in two is one layer.
+  const Phase whole = isotropic("p", 3e6, 0.35, 1e-3, 1.),
+              cut   = layered("p", {{2e-4, 3e6, 0.35}, {8e-4, 3e6, 0.35}}, 1.);
+  EXPECT_LT((plane_stress_stiffness(cut) - plane_stress_stiffness(whole)).norm(),
+            1e-14 * plane_stress_stiffness(whole).norm());
+  EXPECT_LT((bending_stiffness(cut) - bending_stiffness(whole)).norm(),
+            1e-14 * bending_stiffness(whole).norm());
+  EXPECT_NEAR(cut.plate->neutral, 5e-4, 1e-17);
+
+  // A bimetal as a beam, nu = 0 (Timoshenko 1925): with m = t1/t2, n = E1/E2
+  //   E I = E2 t2³/12 (n² m⁴ + 4 n m³ + 6 n m² + 4 n m + 1) / (1 + n m).
+  const double t1 = 6e-4, t2 = 4e-4, E1 = 4e5, E2 = 1.4e7, m = t1 / t2, n = E1 / E2;
+  const double EI =
+    E2 * t2 * t2 * t2 / 12. *
+    (n * n * m * m * m * m + 4. * n * m * m * m + 6. * n * m * m + 4. * n * m + 1.) / (1. + n * m);
+  const Phase strip = layered("p", {{t1, E1, 0.}, {t2, E2, 0.}}, 1.);
+  EXPECT_NEAR(bending_stiffness(strip)(0, 0) / EI, 1., 1e-13);
+  EXPECT_NEAR(plane_stress_stiffness(strip)(0, 0), E1 * t1 + E2 * t2, 1e-9);
+  EXPECT_NEAR(strip.plate->neutral,
+              (0.5 * E1 * t1 * t1 + E2 * t2 * (t1 + 0.5 * t2)) / (E1 * t1 + E2 * t2), 1e-16);
+
+  // Of any nu: the least energy over the strain of the plane e of the layers' own energies,
+  // kappa.D.kappa = min over e of sum of the integral of (e + z kappa).Q.(e + z kappa).
+  const std::vector<Layer> layers = {{6e-4, 4e5, 0.2}, {4e-4, 1.4e7, 0.45}, {1e-4, 2e6, -0.3}};
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero(), B = A, D = A;
+  double z = 0.;
+  for (const Layer &layer : layers)
+  {
+    const Eigen::Matrix3d Q = plane_stress_stiffness(isotropic("p", layer.E, layer.nu, 1., 1.));
+    const double top        = z + layer.thickness;
+    A += (top - z) * Q;
+    B += (top * top - z * z) / 2. * Q;
+    D += (top * top * top - z * z * z) / 3. * Q;
+    z = top;
+  }
+  const Phase phase       = layered("p", layers, 1.);
+  const Eigen::Matrix3d c = A, d = D - B * A.inverse() * B;
+  EXPECT_LT((plane_stress_stiffness(phase) - c).norm(), 1e-13 * c.norm());
+  EXPECT_LT((bending_stiffness(phase) - d).norm(), 1e-12 * d.norm());
+  EXPECT_TRUE(faults_of(phase).empty());
+  // About the lower face, that of a neighbour without thickness.
+  EXPECT_NEAR(coupling(strip, isotropic("p", 1., 0., 1e-300, 1.)),
+              std::abs((0.5 * E1 * t1 * t1 + E2 * t2 * (t1 + 0.5 * t2))) /
+                std::sqrt((E1 * t1 + E2 * t2) *
+                          (E1 * t1 * t1 * t1 + E2 * (std::pow(t1 + t2, 3) - t1 * t1 * t1)) / 3.),
+              1e-12);
+  EXPECT_EQ(coupling(strip, strip), 0.);
+}
+
 TEST(tripwire_material, impossible_constants_are_named)
 {
   const auto says = [](const Phase &phase, const std::string &text)

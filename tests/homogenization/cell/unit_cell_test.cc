@@ -136,6 +136,34 @@ TEST(exact_unit_cell, names_numbers_orthotropy_and_lattices_are_understood)
   EXPECT_EQ(phase.angle, 45.);
 }
 
+TEST(exact_unit_cell, layers_take_the_place_of_moduli_and_thickness)
+{
+  const CellFolder folder;
+  std::string film        = replaced(keys, ", hard: 1e7", "");
+  film                    = replaced(film, "0.3, hard: 0.3", "0.3");
+  const std::size_t begin = film.find("set Thickness");
+  film.replace(begin, film.find('\n', begin) - begin, "set Thickness = soft: 6e-4");
+  const auto with = [&](const std::string &layers)
+  { return film + "set Layers = " + layers + "\n"; };
+  const Phase phase =
+    folder.read(with("hard: 6e-4 1e6 0.3, 4e-4 1.4e7 0.4"), msh(stripes())).phases[1];
+  const Phase expected = layered("hard", {{6e-4, 1e6, 0.3}, {4e-4, 1.4e7, 0.4}}, phase.density);
+  EXPECT_EQ(bending_stiffness(phase), bending_stiffness(expected));
+  EXPECT_EQ(plane_stress_stiffness(phase), plane_stress_stiffness(expected));
+  const auto refused = [&](const std::string &layers, const char *const part)
+  {
+    const std::string text = folder.refusal(with(layers), msh(stripes()));
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  refused("hard: 6e-4 1e6",
+          "key `Layers`: found `hard: 6e-4 1e6`; expected `group: thickness E nu");
+  refused("6e-4 1e6 0.3", "key `Layers`: found `6e-4 1e6 0.3`");
+  refused("hard: 6e-4 1e6 0.3, 4e-4 -1.4e7 0.4", "phase `hard`, layer `2` has Young's modulus");
+  refused("hart: 6e-4 1e6 0.3", "key `Layers` names the group `hart`");
+  refused("hard: 6e-4 1e6 0.3, soft: 6e-4 1e6 0.3",
+          "group `soft` is given both in `Layers` and in `Young's modulus`");
+}
+
 TEST(exact_unit_cell, poissons_ratio_of_one_half_is_fine)
 {
   EXPECT_EQ(CellFolder().refusal(replaced(keys, "soft: 0.3", "soft: 0.5"), msh(stripes())), "");

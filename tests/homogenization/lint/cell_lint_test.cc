@@ -216,6 +216,12 @@ TEST(tripwire_cell_lint, every_kind_is_found_with_its_severity)
   EXPECT_TRUE(finds(lint_phases(cell, 0.01), "stiffness", Severity::warning));
   cell.phases[0] = isotropic("soft", 1e6, 0.3, 5e-4, 0.4); // g/cm^3
   EXPECT_TRUE(finds(lint_phases(cell, 0.01), "mass", Severity::warning));
+  // A film over a third of the thickness beside the bare fabric; the same on all of it is sound.
+  const Phase film = layered("p", {{6e-4, 1e6, 0.3}, {3e-4, 1e6, 0.3}}, 400.);
+  cell.phases      = {isotropic("q", 1e6, 0.3, 6e-4, 400.), film};
+  EXPECT_TRUE(finds(lint_phases(cell, 0.01), "layers", Severity::warning));
+  cell.phases = {film, film};
+  EXPECT_FALSE(finds(lint_phases(cell, 0.01), "layers", Severity::warning));
   cell.phases[0] = isotropic("soft", 1e-3, 0.3, 5e-4, 400.);
   EXPECT_TRUE(finds(lint_contrast(cell), "contrast", Severity::warning));
   cell.phases[0] = isotropic("soft", 1e-10, 0.3, 5e-4, 400.);
