@@ -75,6 +75,9 @@ void describe(const UnitCell &cell, const int n_warnings)
     if (phase.E2 != phase.E1)
       std::cout << " and " << phase.E2;
     std::cout << " Pa, nu " << phase.nu12 << ", thickness " << phase.thickness << " m";
+    if (phase.plate)
+      std::cout << " in layers, bending as E " << phase.plate->E << " Pa, nu " << phase.plate->nu
+                << " about " << phase.plate->neutral << " m";
     const auto n_angles =
       std::count(group_of_phase.begin(), group_of_phase.end(), static_cast<int>(g));
     if (n_angles > 1)
