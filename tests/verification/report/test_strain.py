@@ -76,10 +76,10 @@ class JudgedTest(PageTest):
 
 
 class AxesTest(unittest.TestCase):
-    def figure(self, strains, factor):
+    def figure(self, strains, factor, bar=1e-3):
         rows = [{"load": "strip-1", "strain": strain, "reference": "biot", "method": method,
                  "error_mean_m": value * SIDE, "error_mean_per_cell": value,
-                 "error_bar_m": 1e-3 * value * SIDE}
+                 "error_bar_m": bar * value * SIDE}
                 for strain in strains for method, value in (("affine", factor * strain),
                                                             ("localized", 0.9 * strain))]
         return error_figure(rows, ["affine", "localized"], ["biot"], SIDE)[0]
@@ -98,6 +98,12 @@ class AxesTest(unittest.TestCase):
             self.assertLessEqual(set(texts), set(self.ticks(figure)))
             self.assertEqual(panel["x"].get("ticks"),
                              [100 * s for s in strains] if len(strains) < 5 else None)
+
+    def test_a_bar_below_the_axis_is_told(self):
+        for bar, text in ((0.9, "error bar of the smallest error"),
+                          (1e-3, "error bar of the smallest error, below the axis")):
+            (legend,) = self.figure((0.01, 0.1), 1.0, bar).legends
+            self.assertIn(text, [one.get_text() for one in legend.get_texts()])
 
     def test_the_range_of_errors_is_close_to_them_and_names_two_powers_of_ten(self):
         for strains, factor in (((0.01, 0.1), 8.0), ((0.01, 0.02), 1.0), ((0.001, 0.2), 300.0)):

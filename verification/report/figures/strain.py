@@ -16,6 +16,7 @@ from figures.plot_data import DASHES, ROUND_OFF_NOTE, band
 from read import schema
 
 MARKED_STRAIN = 0.01  # real textiles hardly stretch more under their own weight
+BAR_LABEL = "error bar of the smallest error"
 FEW = 4  # strains that are all named at the axis
 
 
@@ -106,7 +107,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
         )
         if bars:
             strain, bar = numpy.array(bars).T
-            band(axes, 100 * strain, bar, floor / 100.0, "error bar of the smallest error")
+            band(axes, 100 * strain, bar, floor / 100.0, BAR_LABEL)
     for method in methods:
         for reference in references:
             some = [r for r in rows if r["method"] == method and r["reference"] == reference]
@@ -196,6 +197,14 @@ def name_few_strains(axes, strains):
         axes.grid(axis="x", which="minor")
 
 
+def shows_a_bar(figure):
+    """Whether a grey area reaches into its panel."""
+    return any(
+        area.get_label() == BAR_LABEL and area.upper_edge[:, 1].max() > axes.get_ylim()[0]
+        for axes in figure.axes for area in axes.collections
+    )
+
+
 def legend(figure, methods, references, uncertainty, at_floor):
     one_law = len(references) == 1
     entries = []
@@ -229,7 +238,8 @@ def legend(figure, methods, references, uncertainty, at_floor):
             )
         )
     if uncertainty:
-        entries.append(Patch(color="#BDBDBD", alpha=0.55, label="error bar of the smallest error"))
+        below = "" if shows_a_bar(figure) else ", below the axis"
+        entries.append(Patch(color="#BDBDBD", alpha=0.55, label=BAR_LABEL + below))
     if at_floor:
         entries.append(
             Line2D(
