@@ -317,8 +317,10 @@ TEST(tripwire_load, a_state_that_is_no_minimum_is_called_that)
   EXPECT_FALSE(path.levels.back().is_stable);
 }
 
-// Straight yarns under biot collapse between 0.3 and 0.4 %, and what is found beyond is another
-// equilibrium: taken back to where the path was, it has less energy than the path had there.
+// Straight yarns under biot collapse beyond 0.3 %, and what is found there is another equilibrium:
+// taken back to where the path was, it has less energy than the path had there. Beyond the collapse
+// rounding decides how far Newton's method still follows a path that is no minimum any more: of two
+// processors one left it at 0.4 %, the other at 0.6 %.
 TEST(exact_periodic_path, a_state_that_has_left_its_path_is_told_by_a_step_back)
 {
   const auto cloth = [](const std::string &name)
@@ -331,7 +333,7 @@ TEST(exact_periodic_path, a_state_that_has_left_its_path_is_told_by_a_step_back)
   path.at(0.004);
   path.at(0.006);
   ASSERT_TRUE(path.left_at(1.));
-  EXPECT_EQ(*path.left_at(1.), 0.004);
+  EXPECT_GT(*path.left_at(1.), 0.003);
   EXPECT_FALSE(path.left_at(-1.));
 
   PeriodicPath stays = tests::path_along(chevron, "uniaxial-1");
