@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/cell_mesh_file.h"
 
-#include "homogenization/cell/converted_mesh.h"
-#include "homogenization/cell/mesh_formats.h"
+#include "homogenization/mesh_files/converted_mesh.h"
+#include "homogenization/mesh_files/mesh_formats.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "localization/upsampler.h"
-#include "tests/meshes/plain/shapes.h"
+#include "tests/meshes/plain/plain_cell.h"
 
 #include <Eigen/Geometry>
 
@@ -16,13 +16,10 @@ namespace homespun::tests
 inline meshes::HomogenizedCell smooth_cell(const meshes::Lattice &lattice, const int n1,
                                            const int n2)
 {
-  meshes::HomogenizedCell cell;
-  cell.lattice      = lattice;
-  cell.mesh         = parallelogram(lattice, n1, n2);
-  const double size = 0.02 * std::sqrt(lattice.area());
+  meshes::HomogenizedCell cell = plain_cell(lattice, n1, n2);
+  const double size            = 0.02 * std::sqrt(lattice.area());
   const Eigen::Matrix<double, 1, 6> sines =
     (Eigen::Matrix<double, 1, 6>() << 1., -0.4, 0.3, 1.2, -0.7, 0.9).finished();
-  cell.chi.resize(cell.mesh.n_vertices(), 6);
   for (int v = 0; v < cell.mesh.n_vertices(); ++v)
   {
     const Eigen::RowVector2d f = 2. * M_PI * lattice.fractional(cell.mesh.vertices.row(v));

@@ -6,6 +6,7 @@ A wing is the folder of a source, such as shell/solver or localization; a room i
 with its source. walls.py [ROOT] prints each violation with its place and ends with 1, or with 0;
 walls.py --dot [ROOT] prints the wings and their arrows for graphviz: walls.py --dot | dot -Tsvg
 """
+import collections
 import pathlib
 import re
 import sys
@@ -22,7 +23,8 @@ MAY_INCLUDE = {
     "meshes/cloth": {"meshes/plain"},
     "meshes/files": {"meshes/plain", "meshes/cloth"},
     "meshes/garment": {"meshes/plain", "meshes/cloth"},
-    "homogenization/cell": {"meshes/plain", "meshes/files"},
+    "homogenization/mesh_files": {"meshes/plain", "meshes/files"},
+    "homogenization/cell": {"meshes/plain", "meshes/files", "homogenization/mesh_files"},
     "homogenization/lint": {"meshes/plain", "homogenization/cell"},
     "homogenization/algebra": {"meshes/plain"},
     "homogenization/edges": {"meshes/plain", "homogenization/algebra", "homogenization/bracket",
@@ -78,7 +80,7 @@ MAY_INCLUDE = {
                               "verification/ellipticity", "homogenization/cell"},
     "verification/upsample": {"meshes/files", "meshes/cloth", "meshes/garment", "localization",
                               "localization/garment"},
-    "verification/judge": {"meshes/plain", "meshes/files", "homogenization/cell",
+    "verification/judge": {"meshes/plain", "meshes/files", "homogenization/mesh_files",
                            "verification/record", "verification/command", "verification/law",
                            "verification/method", "verification/cell", "verification/strain",
                            "verification/drape"},
@@ -123,6 +125,9 @@ GROUND = {
                                "AffineConstraints<double>"),
 }
 MOST_FILES = 40
+SOURCES = (".cc", ".h", ".py", ".js")
+AT_THE_TOP = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "CHANGELOG.md",
+              "CITATION.cff", "bootstrap"}  # beside folders and dot files
 MOST_LINES = 400
 MOST_COLUMNS = 100
 MOST_LINES_OF_FUNCTION = 80
@@ -272,12 +277,18 @@ def test_headers(house):
                    "folder's README.md lists it")
 
 
+def top_level(house):
+    """Files at the top that belong into a folder."""
+    for path in sorted(house.root.iterdir()):
+        if path.is_file() and path.name[0] != "." and path.name not in AT_THE_TOP:
+            yield f"{path.name}: stands at the top; expected it in a folder"
+
+
 def sizes(house):
     """Folders and files that hold too much."""
-    n_files = {}
-    for path in [*house.product, *house.tests]:
-        folder = path.rsplit("/", 1)[0]
-        n_files[folder] = n_files.get(folder, 0) + 1
+    n_files = collections.Counter(
+        path.parent.relative_to(house.root).as_posix() for folder in [*FOLDERS, "tests"]
+        for path in (house.root / folder).rglob("*") if path.suffix in SOURCES)
     for folder, n in n_files.items():
         if n > MOST_FILES:
             yield f"{folder}: {n} source files; at most {MOST_FILES}: give it rooms"
@@ -316,8 +327,8 @@ def texts(house):
                 yield f"{path}:{number}: tells how a limit came about, not what it follows from"
 
 
-RULES = [arrows, unused_arrows, circles, places, ground, rows, test_headers, sizes, signatures,
-         texts]
+RULES = [arrows, unused_arrows, circles, places, ground, rows, test_headers, top_level, sizes,
+         signatures, texts]
 
 
 def violations(root, rules=None):

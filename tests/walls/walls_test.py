@@ -129,8 +129,13 @@ class Planted(unittest.TestCase):
 
     def test_folder_of_too_many_files(self):
         for k in range(walls.MOST_FILES):
-            (self.root / "meshes" / "cloth" / f"more{k}.cc").write_text("", encoding="utf-8")
+            name = f"more{k}" + walls.SOURCES[k % len(walls.SOURCES)]
+            (self.root / "meshes" / "cloth" / name).write_text("", encoding="utf-8")
         self.expect(walls.sizes, "meshes/cloth: ")
+
+    def test_file_at_the_top(self):
+        (self.root / "setup.cfg").write_text("", encoding="utf-8")
+        self.expect(walls.top_level, "setup.cfg: stands at the top")
 
     def test_file_of_too_many_lines(self):
         self.append("shell/solver/cloth.cc", "\n" * walls.MOST_LINES)

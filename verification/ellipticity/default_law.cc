@@ -116,10 +116,11 @@ std::string note_on_default_law(const UnitCell &cell)
 std::string note_on_default_references(const UnitCell &cell)
 {
   const Law law           = default_law(cell);
-  const auto names        = default_references(cell);
   const std::string other = name_of(law == Law::biot ? Law::yarn : Law::biot);
-  return cell.name + ": the references are " + names[0] + ", " + names[1] + " and " + names[2] +
-         ", as none was asked for; " + name_of(law) + " and not " + other + ": " +
-         reason_of_default(cell);
+  std::string names;
+  for (const std::string &name : default_references(cell))
+    names += (names.empty() ? "" : ", ") + name;
+  return cell.name + ": the references are " + names + ", as none was asked for; " + name_of(law) +
+         " and not " + other + ": " + reason_of_default(cell);
 }
 } // namespace homespun::verification

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/judge/given_positions.h"
 
-#include "homogenization/cell/converted_mesh.h"
-#include "homogenization/cell/mesh_formats.h"
+#include "homogenization/mesh_files/converted_mesh.h"
+#include "homogenization/mesh_files/mesh_formats.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/polygons.h"
 #include "meshes/plain/errors.h"

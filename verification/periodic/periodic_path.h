@@ -34,7 +34,8 @@ public:
 
   /// The first factor whose state has left the path: Newton's method from there, taken back to the
   /// state before, comes to another one. Beyond it the states are equilibria, but not those that
-  /// what is prescribed leads to. Nothing where each step can be taken back.
+  /// what is prescribed leads to. Nothing where each step can be taken back: where the path has no
+  /// minimum, rounding decides which equilibrium is found, and a jump may be told late or not.
   /// @param sign of the factors that are asked, 1 or -1
   std::optional<double> left_at(double sign) const;
 

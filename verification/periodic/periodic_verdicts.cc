@@ -242,6 +242,9 @@ std::vector<std::string> notes_on_margins(const std::vector<StabilityRow> &rows)
   for (const char *note :
        {"beta is the least eigenvalue of the tangent stiffness on waves of every length, relative "
         "to the stiffness at rest: 1 at rest, zero where a wave costs nothing.",
+        "A jump of Newton's method to another equilibrium is looked for by a step back. Where the "
+        "state is no minimum any more, rounding decides which equilibrium is found: a jump may be "
+        "told a level late, or not at all.",
         "Of each state 49 waves are asked, one of k and -k, 12 of them long ones in the limit; "
         "and then those around the lowest, to 1/128 of the reciprocal vectors.",
         "`unstable-proved`: a field with a negative second variation was found: the state of the "

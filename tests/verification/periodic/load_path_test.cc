@@ -319,8 +319,8 @@ TEST(tripwire_load, a_state_that_is_no_minimum_is_called_that)
 
 // Straight yarns under biot collapse beyond 0.3 %, and what is found there is another equilibrium:
 // taken back to where the path was, it has less energy than the path had there. Beyond the collapse
-// rounding decides how far Newton's method still follows a path that is no minimum any more: of two
-// processors one left it at 0.4 %, the other at 0.6 %.
+// rounding decides how far Newton's method still follows a path that is no minimum any more:
+// strains that differ by 1e-12 leave it at 0.4 % or at 0.6 %.
 TEST(exact_periodic_path, a_state_that_has_left_its_path_is_told_by_a_step_back)
 {
   const auto cloth = [](const std::string &name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "homogenization/cell/mesh_formats.h"
+#include "homogenization/mesh_files/mesh_formats.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "homogenization/cell/mesh_text.h"
+#include "homogenization/mesh_files/mesh_text.h"
 
 #include "meshes/plain/errors.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Gmsh's .msh as text: https://gmsh.info/doc/texinfo/gmsh.html#File-formats, and its legacy formats
 // 1 and 2. Triangles may have six nodes: corners, then the middles of the sides.
-#include "homogenization/cell/mesh_formats.h"
+#include "homogenization/mesh_files/mesh_formats.h"
 
 #include <cmath>
 #include <set>

@@ -5,7 +5,7 @@
 // (converted_mesh.h).
 #pragma once
 
-#include "homogenization/cell/mesh_text.h"
+#include "homogenization/mesh_files/mesh_text.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "homogenization/cell/converted_mesh.h"
+#include "homogenization/mesh_files/converted_mesh.h"
 
-#include "homogenization/cell/mesh_text.h"
+#include "homogenization/mesh_files/mesh_text.h"
 #include "meshes/files/child_process.h"
 #include "meshes/files/temporary_folder.h"
 #include "meshes/plain/errors.h"
