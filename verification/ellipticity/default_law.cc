@@ -117,10 +117,11 @@ std::string note_on_default_references(const UnitCell &cell)
 {
   const Law law           = default_law(cell);
   const std::string other = name_of(law == Law::biot ? Law::yarn : Law::biot);
-  std::string names;
-  for (const std::string &name : default_references(cell))
-    names += (names.empty() ? "" : ", ") + name;
-  return cell.name + ": the references are " + names + ", as none was asked for; " + name_of(law) +
+  const auto names        = default_references(cell);
+  std::string said;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    said += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  return cell.name + ": the references are " + said + ", as none was asked for; " + name_of(law) +
          " and not " + other + ": " + reason_of_default(cell);
 }
 } // namespace homespun::verification
