@@ -11,10 +11,12 @@
 
 namespace homespun::localization
 {
-/// Modes of the cell's vertices, chi first (n,6), or with the quadratic or fitted ones (n,18), in
-/// the parts that the kernel takes [m].
+/// Modes of vertices of the cell, chi first (n,6), or with the quadratic or fitted ones (n,18), in
+/// the parts that the kernel takes; of fine vertices also with what free edges take off chi behind
+/// them, where that is apart (n,24) [m].
 using CellModes =
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 18>;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 24>;
+using ModesRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 24>;
 
 Modes kind_of_modes(const UpsamplerOptions &options);
 

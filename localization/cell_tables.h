@@ -42,7 +42,7 @@ struct CellTables
   /// @param modes_at of a fine vertex, as VertexTable::append() takes them
   template <typename ModesAt>
   void fill(const meshes::Sheet &sheet, const int n_quads, const EdgeModes &near_edges,
-            const ModesAt &modes_at)
+            const Panel &panel, const ModesAt &modes_at)
   {
     quads     = n_quads;
     n_cells   = sheet.n1 * sheet.n2;
@@ -50,11 +50,12 @@ struct CellTables
     n_block   = sheet.n_per_cell;
     triangles = triangles_of_cell(sheet, quads);
     first_row.resize(triangles.size());
-    std::map<EdgeModes::Depths, int> kind_at;
+    std::map<std::vector<int>, int> kind_at;
     for (int cell = 0; cell < n_cells; ++cell)
     {
-      const auto [found, is_new] = kind_at.emplace(
-        near_edges.depths(cell % n_along, cell / n_along), static_cast<int>(chi_of_kind.size()));
+      const auto [found, is_new] =
+        kind_at.emplace(near_edges.depths(panel, cell % n_along, cell / n_along),
+                        static_cast<int>(chi_of_kind.size()));
       kind_of_cell.push_back(found->second);
       if (!is_new)
         continue;

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The modes that decay from the edges of a sheet inwards, vertex by vertex: there w is
+// The modes that decay from the edges of a panel inwards, vertex by vertex: there w is
 // w_a + phi_a − d_a (clamped) or w_a + phi_a (free) in the place of w_a, linear in the strain as
 // before (meshes::CellEdges). So they change constants of the vertices near edges and cost a frame
-// nothing but the memory of these. Private to upsampler.
+// nothing but the memory of these. Private to upsampler and placed_garment.
+//
+// Where an edge on a lattice line ends at a seam, at another outline or in a corner that is not
+// convex, its modes fade, as w does at seams: beyond the end they would belong to no edge. An
+// outline in their way ends them. In a convex corner the modes of two edges add up.
 #pragma once
 
+#include "localization/cell_modes.h"
 #include "localization/options.h"
+#include "localization/panel_edges.h"
 #include "meshes/plain/homogenized_cell.h"
-#include "meshes/plain/sheet.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -19,7 +24,7 @@
 namespace homespun::localization
 {
 /// How the slip L d E of clamped edges moves a coarse mesh: it is taken at the vertices of the
-/// edges, with their strain and rotation, and carried into the sheet.
+/// edges, with their strain and rotation, and carried into their panel.
 struct EdgeSlip
 {
   struct Source
@@ -52,43 +57,50 @@ public:
   using Row = Eigen::Matrix<double, 1, 6>;
 
   /// @param options whose edges are taken, none or those of the cell; read here alone
-  EdgeModes(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
-            const UpsamplerOptions &options);
+  EdgeModes(const meshes::HomogenizedCell &cell, const UpsamplerOptions &options);
 
   bool are_there() const
   {
     return edges != nullptr;
   }
 
-  /// What the modes of edges of a kind add to w at a fine vertex, per unit strain, column 2 a + c
-  /// [m].
-  Row at(int vertex, EdgeKind kind) const;
-
-  /// The same of all edges.
-  Row at(const int vertex) const
+  /// What the modes of all edges add to w at a fine vertex, per unit strain, column 2 a + c [m].
+  Row at(const Panel &panel, const PanelPoint &place) const
   {
-    return at(vertex, EdgeKind::clamped) + at(vertex, EdgeKind::free);
+    return at(panel, place, EdgeKind::clamped) + at(panel, place, EdgeKind::free);
   }
 
-  /// The slip of a coarse mesh, with that of each clamped edge where a vertex stands opposite it,
-  /// weighted by one over the distance from it in parts of the sheet: a single clamped edge takes
-  /// the sheet along, and between two that face each other slip is linear, as where the sheet is
-  /// strained evenly.
-  EdgeSlip slip_of(const meshes::TriangleMesh &coarse) const;
+  /// Modes of a fine vertex, as VertexTable::append() takes them.
+  /// @param of_cell those of the cell
+  ModesRow added_to(const ModesRow &of_cell, const Panel &panel, const PanelPoint &place) const;
 
-  /// How far a cell of the sheet is from each edge that reaches it, in cells; −1: it does not. The
+  /// The slip of a coarse mesh, with that of each clamped edge where a vertex stands opposite it,
+  /// weighted by one over the distance from it in parts of the panel: a single clamped edge takes
+  /// the panel along, and between two that face each other slip is linear, as where the panel is
+  /// strained evenly. Panels without clamped edges have none.
+  EdgeSlip slip_of(const std::vector<Panel> &panels, const meshes::TriangleMesh &coarse) const;
+
+  /// How far a cell of a sheet is from each edge that reaches it, in cells; −1: it does not. The
   /// vertices of cells for which this is alike have the same modes.
-  using Depths = std::array<int, meshes::CellEdges::n_sides>;
-  Depths depths(int i, int j) const;
+  std::vector<int> depths(const Panel &sheet, int i, int j) const;
 
 private:
+  Row at(const Panel &panel, const PanelPoint &place, EdgeKind kind) const;
+  double part_at(const Panel &panel, const PanelEdge &edge, const PanelPoint &place) const;
+  int reached(const PanelEdge &edge, int of_cell) const;
+
   const meshes::HomogenizedCell &cell;
-  const meshes::Sheet &sheet;
   const meshes::CellEdges *edges;
   EdgeKinds kinds;
+  double fade;            ///< at ends of edges [cells]
+  bool free_are_apart;    ///< in columns of their own
+  meshes::Points in_cell; ///< of the cell's vertices
   /// By axis: of each vertex of the cell that lies at an end of the axis, its image at the other.
   std::array<std::vector<int>, 2> across;
 };
+
+/// Grows from 0 at 0 to 1 at 1, with slope zero at both.
+double smooth_step(double s);
 
 /// What hinders options with edges: chi without mean zero, modes of another mesh.
 std::vector<std::string> edge_faults(const meshes::HomogenizedCell &cell,

@@ -89,8 +89,8 @@ struct UpsamplerOptions
   /// Modes of the cell that are added to chi, fitted over a box of strains. Null: none. Read by the
   /// constructor alone; not with second_order, with Blend::continuous.
   const meshes::FittedModes *fitted = nullptr;
-  /// What the cell does at the edges of a sheet of whole cells: modes that decay from them are
-  /// added. Null: none. Read by the constructor alone; with Anchor::mean, and not for garments.
+  /// What the cell does at edges on lattice lines: modes that decay from them are added. Null:
+  /// none. Read by the constructor alone; with Anchor::mean, which panels without such edges leave.
   const meshes::CellEdges *edges = nullptr;
   EdgeKinds edge_kinds           = {};
   Slip slip                      = Slip::of_cloth;

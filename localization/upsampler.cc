@@ -39,32 +39,19 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   if (!faults.empty())
     throw meshes::BadInput(faults);
   const CellModes modes = cell_modes(cell, options);
-  const EdgeModes near_edges(cell, fine, options);
-  const bool free_are_apart = kind_of_modes(options) == fitted_modes_and_free_edges;
-  const auto modes_at       = [&](const int v)
-  {
-    const auto of_cell = modes.row(fine.cell_vertex(v));
-    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 24> row(of_cell.size() +
-                                                                         (free_are_apart ? 6 : 0));
-    row.head(of_cell.size()) = of_cell;
-    if (near_edges.are_there() && options.microscopic)
-    {
-      const EdgeModes::Row of_free = near_edges.at(v, EdgeKind::free);
-      row.template head<6>() -= near_edges.at(v, EdgeKind::clamped);
-      if (free_are_apart)
-        row.template tail<6>() = -of_free;
-      else
-        row.template head<6>() -= of_free;
-    }
-    return row;
-  };
-  if (options.microscopic && options.slip == Slip::added)
-    slip = near_edges.slip_of(coarse_rest);
+  const EdgeModes near_edges(cell, options);
+  Panel panel         = panel_of(fine);
+  const auto modes_at = [&](const int v)
+  { return near_edges.added_to(modes.row(fine.cell_vertex(v)), panel, point_of(fine, v)); };
+  for (int t = 0; t < coarse_rest.n_triangles(); ++t)
+    panel.triangles.push_back(t);
+  if (options.slip == Slip::added)
+    slip = near_edges.slip_of({panel}, coarse_rest);
   n_total = fine.mesh.n_vertices();
   n_space = coarse_rest.n_vertices();
   if (const int quads = quads_per_cell(fine, coarse_rest);
       quads > 0 && options.path == Path::automatic)
-    cells.fill(fine, quads, near_edges, modes_at);
+    cells.fill(fine, quads, near_edges, panel, modes_at);
   place(modes_at, fine, cells.n_cells * cells.n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
                  static_cast<std::size_t>(record_size(kind_of_modes(options))));
@@ -78,6 +65,7 @@ Upsampler<dim, Scalar>::Upsampler(const PlacedVertices &placed)
     , n_space(placed.n_space)
     , n_total(static_cast<int>(placed.triangle.size()))
     , fitted(options.fitted ? meshes::FittedResponse(*options.fitted) : meshes::FittedResponse())
+    , slip(placed.slip)
 {
   std::vector<std::vector<Member>> in_triangle(
     static_cast<std::size_t>(placed.coarse_rest.n_triangles()));

@@ -41,13 +41,14 @@ namespace homespun::localization
 /// Fine vertices placed one by one, each with its own modes.
 struct PlacedVertices
 {
-  UpsamplerOptions options;         ///< without edges
+  UpsamplerOptions options;
   meshes::TriangleMesh coarse_rest; ///< coarse mesh at rest, in the frame of the modes
   Eigen::VectorXi space_of_rest;    ///< coarse vertex in space of each of its vertices
   int n_space = 0;                  ///< coarse vertices in space
   Eigen::VectorXi triangle;         ///< (n) coarse triangle of each fine vertex
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> weights; ///< (n,3) barycentric
-  CellModes modes;                                                   ///< of each vertex [m]
+  CellModes modes; ///< of each vertex, those of edges among them [m]
+  EdgeSlip slip;   ///< where it is added
 };
 
 /// @tparam dim 2: in-plane scenes carry two components; 3: cloth in space

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/garment/garment_faults.h"
 
+#include "localization/edge_modes.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/cloth/cloth_faults.h"
 #include "meshes/cloth/seams.h"
@@ -26,9 +27,8 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
   }
   for (const std::string &fault : mode_faults(options))
     faults.push_back(fault);
-  if (options.edges != nullptr)
-    faults.emplace_back("up-sampling: modes of edges are asked for of a garment; its outlines and "
-                        "seams are no lattice lines and have none: leave edges empty");
+  for (const std::string &fault : edge_faults(cell, options))
+    faults.push_back(fault);
   if ((options.strain == Strain::linear || options.lift == Lift::identity) &&
       std::any_of(fine.grains.begin(), fine.grains.end(),
                   [](const meshes::Grain &grain) { return grain.angle != 0.; }))

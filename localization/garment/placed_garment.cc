@@ -2,59 +2,98 @@
 #include "localization/garment/placed_garment.h"
 
 #include "localization/garment/garment_faults.h"
+#include "localization/garment/garment_panels.h"
 #include "meshes/cloth/seams.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace homespun::localization
 {
 namespace
 {
-/// Grows from 0 at 0 to 1 at 1, with slope zero at both.
-double smooth_step(const double s)
+/// A fine vertex in its panel.
+PanelPoint point_of(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh &coarse,
+                    const Panel &panel, const meshes::FineCloth &fine, const int v)
 {
-  const double t = std::clamp(s, 0., 1.);
-  return t * t * (3. - 2. * t);
-}
-
-/// Modes at the fine vertices.
-/// @param of_cell its modes
-/// @param fade distance from a seam over which they grow from zero to their full size [m]
-CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const CellModes &of_cell,
-                           const meshes::FineCloth &fine, const double fade)
-{
-  CellModes result(fine.n_vertices(), of_cell.cols());
-  for (int v = 0; v < fine.n_vertices(); ++v)
+  const Eigen::Vector3i of_coarse = coarse.triangles.row(fine.coarse_triangle(v));
+  Eigen::RowVector2d place = Eigen::RowVector2d::Zero(), middle = place;
+  for (int k = 0; k < 3; ++k)
   {
-    auto here = result.row(v);
-    if (fine.cell_vertex(v) >= 0)
-      here = of_cell.row(fine.cell_vertex(v));
-    else
-    {
-      here.setZero();
-      for (int k = 0; k < 3; ++k)
-        here +=
-          fine.cell_weights(v, k) * of_cell.row(cell.mesh.triangles(fine.cell_triangle(v), k));
-    }
-    if (const double distance = fine.seam_distance(v); distance < fade)
-      here *= smooth_step(distance / fade);
+    place += fine.coarse_weights(v, k) * coarse.vertices.row(of_coarse(k));
+    middle += coarse.vertices.row(of_coarse(k)) / 3.;
+  }
+  PanelPoint result = {cell.lattice.fractional(place - panel.zero),
+                       cell.lattice.fractional(place + 1e-3 * (middle - place) - panel.zero),
+                       {},
+                       {1., 0., 0.}};
+  result.corners.fill(fine.cell_vertex(v));
+  if (fine.cell_vertex(v) < 0)
+  {
+    result.weights = fine.cell_weights.row(v);
+    for (int k = 0; k < 3; ++k)
+      result.corners[static_cast<std::size_t>(k)] = cell.mesh.triangles(fine.cell_triangle(v), k);
   }
   return result;
 }
 
-/// The panels at rest, each turned into the frame of its cells.
-meshes::TriangleMesh in_frames_of_cells(const meshes::ClothMesh &coarse,
-                                        const std::vector<meshes::Grain> &grains)
+/// Modes at the fine vertices.
+/// @param placed all but these
+CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fine,
+                           const std::vector<Panel> &panels, const PlacedVertices &placed)
 {
-  meshes::TriangleMesh rest   = coarse.rest;
-  const Eigen::VectorXi panel = meshes::panels_of(coarse).of_vertex;
-  for (int v = 0; v < rest.n_vertices(); ++v)
-    if (const int p = panel(v); p >= 0 && grains[static_cast<std::size_t>(p)].angle != 0.)
-      rest.vertices.row(v) =
-        (rest.vertices.row(v) * grains[static_cast<std::size_t>(p)].rotation()).eval();
-  return rest;
+  const UpsamplerOptions &options = placed.options;
+  const double fade               = options.seam_fade * std::sqrt(cell.lattice.area());
+  const EdgeModes near_edges(cell, options);
+  // A panel without edges on lattice lines is as without edges.
+  UpsamplerOptions plain = options;
+  if (near_edges.are_there())
+    plain.anchor = Anchor::lattice;
+  const CellModes with_edges = cell_modes(cell, options), without = cell_modes(cell, plain);
+  CellModes result;
+  for (int v = 0; v < fine.n_vertices(); ++v)
+  {
+    const Panel &panel       = panels[static_cast<std::size_t>(fine.panel(v))];
+    const CellModes &of_cell = panel.edges.empty() ? without : with_edges;
+    const PanelPoint place   = point_of(cell, placed.coarse_rest, panel, fine, v);
+    ModesRow here            = of_cell.row(place.corners[0]);
+    if (fine.cell_vertex(v) < 0)
+    {
+      here.setZero();
+      for (std::size_t k = 0; k < 3; ++k)
+        here += place.weights(static_cast<Eigen::Index>(k)) * of_cell.row(place.corners[k]);
+    }
+    here = near_edges.added_to(here, panel, place);
+    if (const double distance = fine.seam_distance(v); distance < fade)
+      here *= smooth_step(distance / fade);
+    if (v == 0)
+      result.resize(fine.n_vertices(), here.size());
+    result.row(v) = here;
+  }
+  return result;
+}
+
+/// Slip that keeps seams closed: what is sewn together moves by the mean of its panels, and not
+/// where one of them has none.
+EdgeSlip sewn(EdgeSlip slip, const std::vector<int> &space_of_rest)
+{
+  std::map<int, std::vector<int>> copies; // of a vertex in space
+  for (std::size_t v = 0; v < space_of_rest.size(); ++v)
+    copies[space_of_rest[v]].push_back(static_cast<int>(v));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto &[space, rest] : copies)
+    if (std::all_of(rest.begin(), rest.end(),
+                    [&](const int v) { return slip.of_sources.row(v).nonZeros() > 0; }))
+      for (const int v : rest)
+        for (const int other : rest)
+          entries.emplace_back(v, other, 1. / static_cast<double>(rest.size()));
+  const Eigen::Index n = slip.of_sources.rows();
+  Eigen::SparseMatrix<double, Eigen::RowMajor> mean(n, n);
+  mean.setFromTriplets(entries.begin(), entries.end());
+  slip.of_sources = (mean * slip.of_sources).eval();
+  return slip;
 }
 } // namespace
 
@@ -66,12 +105,15 @@ PlacedVertices placed_garment(const meshes::HomogenizedCell &cell, const meshes:
   PlacedVertices placed;
   placed.options       = options;
   placed.coarse_rest   = in_frames_of_cells(coarse, fine.grains);
+  const auto panels    = garment_panels(coarse, fine);
   placed.space_of_rest = meshes::space_of_rest(coarse);
   placed.n_space       = coarse.n_vertices();
   placed.triangle      = fine.coarse_triangle;
   placed.weights       = fine.coarse_weights;
-  placed.modes         = modes_of_garment(cell, cell_modes(cell, options), fine,
-                                          options.seam_fade * std::sqrt(cell.lattice.area()));
+  placed.modes         = modes_of_garment(cell, fine, panels, placed);
+  if (options.slip == Slip::added)
+    placed.slip = sewn(EdgeModes(cell, options).slip_of(panels, placed.coarse_rest),
+                       {placed.space_of_rest.begin(), placed.space_of_rest.end()});
   return placed;
 }
 } // namespace homespun::localization

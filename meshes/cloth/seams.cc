@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/cloth/seams.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 
@@ -52,6 +54,26 @@ std::array<int, 2> space_ends(const ClothMesh &cloth, const Side &side)
 {
   return {cloth.triangles(side.triangle, side.side),
           cloth.triangles(side.triangle, (side.side + 1) % 3)};
+}
+
+std::vector<Side> open_sides(const ClothMesh &cloth)
+{
+  std::map<std::array<int, 2>, int> owners;
+  const auto owners_of = [&](const Side &side) -> int &
+  {
+    auto ends = rest_ends(cloth, side);
+    std::sort(ends.begin(), ends.end());
+    return owners[ends];
+  };
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      ++owners_of({t, k});
+  std::vector<Side> open;
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (owners_of({t, k}) == 1)
+        open.push_back({t, k});
+  return open;
 }
 
 std::vector<SeamEdge> seam_edges(const ClothMesh &cloth)

@@ -28,6 +28,9 @@ struct Side
   int triangle, side;
 };
 
+/// The outlines of all panels, sewn or not: sides that have no other triangle at rest.
+std::vector<Side> open_sides(const ClothMesh &cloth);
+
 /// An edge in space between two triangles that is no edge at rest: the sides were sewn together. In
 /// space the second triangle runs along it the other way.
 struct SeamEdge

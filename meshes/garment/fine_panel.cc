@@ -47,25 +47,10 @@ bool may_meet(const Eigen::RowVector2d &from, const Eigen::RowVector2d &to,
 std::vector<FinePanel> outlines_of(const ClothMesh &cloth, const Panels &panels)
 {
   std::vector<FinePanel> all(at(panels.count));
-  std::map<std::array<int, 2>, int> owners;
   for (int t = 0; t < cloth.n_triangles(); ++t)
-  {
     all[at(panels.of_triangle(t))].triangles.push_back(t);
-    for (int k = 0; k < 3; ++k)
-    {
-      auto ends = rest_ends(cloth, {t, k});
-      std::sort(ends.begin(), ends.end());
-      ++owners[ends];
-    }
-  }
-  for (int t = 0; t < cloth.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      auto ends = rest_ends(cloth, {t, k});
-      std::sort(ends.begin(), ends.end());
-      if (owners[ends] == 1)
-        all[at(panels.of_triangle(t))].outline.push_back({t, k});
-    }
+  for (const Side &side : open_sides(cloth))
+    all[at(panels.of_triangle(side.triangle))].outline.push_back(side);
   return all;
 }
 

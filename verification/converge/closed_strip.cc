@@ -308,7 +308,8 @@ ClosedStripErrors closed_strip_errors(const homogenization::UnitCell &cell,
   options.edges      = homogenized.edges;
   options.edge_kinds = {localization::EdgeKind::none, localization::EdgeKind::none,
                         localization::EdgeKind::clamped, localization::EdgeKind::free};
-  const localization::EdgeModes near_edges(homogenized.cell, sheet, options);
+  const localization::EdgeModes near_edges(homogenized.cell, options);
+  const localization::Panel panel = localization::panel_of(sheet);
   const meshes::Chi mean = localization::anchored(homogenized.cell, localization::Anchor::mean),
                     anchored =
                       localization::anchored(homogenized.cell, localization::Anchor::lattice);
@@ -331,7 +332,10 @@ ClosedStripErrors closed_strip_errors(const homogenization::UnitCell &cell,
     strain += (turn * without.E).real().norm();
     errors.localized += (displacement(without, -anchored.row(image)) - fine.row(v)).norm();
     errors.full +=
-      (displacement(with_edges.at(y), near_edges.at(v) - mean.row(image)) - fine.row(v)).norm();
+      (displacement(with_edges.at(y),
+                    near_edges.at(panel, localization::point_of(sheet, v)) - mean.row(image)) -
+       fine.row(v))
+        .norm();
   }
   errors.full /= strain;
   errors.localized /= strain;
