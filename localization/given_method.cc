@@ -5,15 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace homespun::localization
 {
 namespace
 {
+constexpr std::array<const char *, meshes::CellEdges::n_sides> names = {"left", "right", "bottom",
+                                                                        "top"};
+
 EdgeKinds kinds_of(const std::vector<std::string> &held)
 {
-  constexpr std::array<const char *, meshes::CellEdges::n_sides> names = {"left", "right", "bottom",
-                                                                          "top"};
   EdgeKinds kinds;
   kinds.fill(EdgeKind::free);
   for (const std::string &name : held)
@@ -27,6 +29,40 @@ EdgeKinds kinds_of(const std::vector<std::string> &held)
                              "alone");
   }
   return kinds;
+}
+
+/// Which edges of panels have layers, where some of the outlines have none; empty of a sheet.
+std::string note_on_edges(const std::vector<Panel> &panels, const EdgeKinds &kinds)
+{
+  Panel all;
+  for (const Panel &panel : panels)
+  {
+    all.length += panel.length;
+    all.sewn_length += panel.sewn_length;
+    all.edge_length += panel.edge_length;
+  }
+  std::string where, nowhere;
+  for (std::size_t side = 0; side < names.size(); ++side)
+  {
+    std::string of;
+    for (std::size_t p = 0; p < panels.size(); ++p)
+      if (std::any_of(panels[p].edges.begin(), panels[p].edges.end(),
+                      [&](const PanelEdge &edge) { return edge.side == static_cast<int>(side); }))
+        of += (of.empty() ? "" : ", ") + std::to_string(p);
+    const bool is_held = kinds[side] == EdgeKind::clamped;
+    if (!of.empty())
+      where += std::string(where.empty() ? "" : "; ") + names[side] +
+               (is_held ? " (held)" : " (free)") + " of panel " + of;
+    else if (is_held)
+      nowhere += std::string("; no edge on a lattice line is `") + names[side] + "`, which is held";
+  }
+  const double n_percent = 100. / all.length, off = all.length - all.sewn_length - all.edge_length;
+  if (panels.empty() || (nowhere.empty() && off + all.sewn_length <= 1e-9 * all.length))
+    return "";
+  return "edges have layers at " + where + "; none along the " +
+         std::to_string(std::lround(n_percent * all.sewn_length)) +
+         " % of the outlines that are sewn and the " +
+         std::to_string(std::lround(n_percent * off)) + " % that lie on no lattice line" + nowhere;
 }
 } // namespace
 
@@ -50,18 +86,24 @@ GivenMethod on_given(const Method &method, const meshes::HomogenizedCell &cell,
                                              : "cubic belongs") +
                       " to the coarse cloth, which is yours";
   const std::string why_no_edges =
-    !given.is_sheet ? "the cloth is no sheet of whole cells, whose edges are lattice lines"
-    : given.held.empty()
-      ? "`held` does not say which edges of the sheet are held: left, right, bottom, top, or none"
-      : "";
-  if (result.used.has(Term::edges) && !why_no_edges.empty())
+    !given.panels.empty() && std::all_of(given.panels.begin(), given.panels.end(),
+                                         [](const Panel &panel) { return panel.edges.empty(); })
+      ? "no edge of a panel that is not sewn lies on a lattice line of its cells"
+    : given.held.empty() ? "`held` does not say which edges on lattice lines are held: left, "
+                           "right, bottom, top, or none"
+                         : "";
+  if (result.used.has(Term::edges))
   {
-    if (method.asks_for(Term::edges))
-      throw meshes::BadInput("method " + method.name + ": there are no terms of edges, because " +
-                             why_no_edges);
-    result.used = result.used.without(Term::edges);
-    result.left_out +=
-      (result.left_out.empty() ? "" : "; ") + ("edges are left out, because " + why_no_edges);
+    std::string note = note_on_edges(given.panels, kinds);
+    if (!why_no_edges.empty())
+    {
+      if (method.asks_for(Term::edges))
+        throw meshes::BadInput("method " + method.name + ": there are no terms of edges, because " +
+                               why_no_edges);
+      result.used = result.used.without(Term::edges);
+      note        = "edges are left out, because " + why_no_edges;
+    }
+    result.left_out += (result.left_out.empty() || note.empty() ? "" : "; ") + note;
   }
   if (!result.left_out.empty())
     result.left_out = "method " + method.name + ": " + result.left_out;

@@ -2,13 +2,14 @@
 // What a method is on the coarse cloth of somebody else: its up-sampling.
 //
 // The coarse motion is given, and with it whatever moved the cloth: the terms p2 and cubic of a
-// method are its own. Up-sampling has micro, modes and, of a sheet, edges. There the modes of a
-// clamped edge belong to a coarse edge that lies d E off where it is held (meshes/plain/
-// cell_edges.h). Somebody else's cloth lies where it is held: without slip these modes are worse
-// than none, so that it is added (Slip::added).
+// method are its own. Up-sampling has micro, modes and, where edges of a sheet or of panels lie on
+// lattice lines and are not sewn, edges. There the modes of a clamped edge belong to a coarse edge
+// that lies d E off where it is held (meshes/plain/ cell_edges.h). Somebody else's cloth lies where
+// it is held: without slip these modes are worse than none, so that it is added (Slip::added).
 #pragma once
 
 #include "localization/method.h"
+#include "localization/panel_edges.h"
 
 #include <string>
 #include <vector>
@@ -18,19 +19,19 @@ namespace homespun::localization
 /// What is known of the coarse cloth.
 struct GivenCloth
 {
-  bool is_sheet = true; ///< of whole cells, whose edges are lattice lines; else panels
-  /// Edges of a sheet that are held along their whole length: left, right, where the first lattice
-  /// coordinate is smallest and largest, bottom, top; or `none`. The others are free. Empty:
-  /// nobody says, and there are no terms of edges.
+  /// Which edges on lattice lines are held along their whole length: left, right, where the first
+  /// lattice coordinate of the cloth beside them begins and ends, bottom, top, of all panels; or
+  /// `none`. The others are free. Empty: nobody says, and there are no terms of edges.
   std::vector<std::string> held;
-  Slip slip = Slip::added; ///< of_cloth: of one that moved by the terms of edges
+  Slip slip = Slip::added;   ///< of_cloth: of one that moved by the terms of edges
+  std::vector<Panel> panels; ///< of a garment (garment/garment_panels.h); none: of whole cells
 };
 
 struct GivenMethod
 {
   Method used;          ///< what up-sampling has of the method
   Law law = Law::biot;  ///< whose modes it takes
-  std::string left_out; ///< a sentence on what it has not; empty where that is nothing
+  std::string left_out; ///< a sentence on what it has not, and where; empty where that is nothing
   UpsamplerOptions options;
 };
 

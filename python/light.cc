@@ -3,6 +3,7 @@
 // what does not converge is homespun.NotConverged; the interpreter runs on while this computes.
 #include "python/light.h"
 
+#include "localization/garment/garment_panels.h"
 #include "localization/garment/placed_garment.h"
 #include "localization/given_method.h"
 #include "meshes/files/format_version.h"
@@ -72,16 +73,21 @@ localization::GivenMethod method_on(const HomogenizedCell &cell, const std::stri
   return found;
 }
 
-std::unique_ptr<CellUpsampler> over_sheet(const HomogenizedCell &cell, const CellSheet &sheet,
-                                          const std::string &method, const Held &held,
-                                          const bool has_slip)
+localization::GivenCloth given_of(const Held &held, const bool has_slip)
 {
   localization::GivenCloth given;
   if (held)
     given.held = held->empty() ? std::vector<std::string>{"none"} : *held;
   if (has_slip)
     given.slip = localization::Slip::of_cloth;
-  const auto found = method_on(cell, method, given);
+  return given;
+}
+
+std::unique_ptr<CellUpsampler> over_sheet(const HomogenizedCell &cell, const CellSheet &sheet,
+                                          const std::string &method, const Held &held,
+                                          const bool has_slip)
+{
+  const auto found = method_on(cell, method, given_of(held, has_slip));
   const py::gil_scoped_release others_run;
   return std::unique_ptr<CellUpsampler>(new CellUpsampler{
     found.used,
@@ -91,12 +97,13 @@ std::unique_ptr<CellUpsampler> over_sheet(const HomogenizedCell &cell, const Cel
 }
 
 std::unique_ptr<CellUpsampler> over_garment(const HomogenizedCell &cell, const LaidGarment &garment,
-                                            const std::string &method)
+                                            const std::string &method, const Held &held,
+                                            const bool has_slip)
 {
-  localization::GivenCloth panels;
-  panels.is_sheet   = false;
-  const auto found  = method_on(cell, method, panels);
-  const auto placed = [&cell, &garment, options = found.options]()
+  localization::GivenCloth given = given_of(held, has_slip);
+  given.panels                   = localization::garment_panels(garment.coarse, garment.fine);
+  const auto found               = method_on(cell, method, given);
+  const auto placed              = [&cell, &garment, options = found.options]()
   { return placed_garment(cell, garment.coarse, garment.fine, options); };
   const py::gil_scoped_release others_run;
   return std::unique_ptr<CellUpsampler>(
@@ -183,16 +190,19 @@ void declare_upsampler(py::module_ &module)
   py::class_<CellUpsampler>(module, "Upsampler",
                             "Fine positions from coarse positions: what runs every frame. One "
                             "thread at a time.")
-    .def(py::init(&over_sheet), py::arg("cell"), py::arg("sheet"), py::kw_only(),
+    .def(
+      py::init(&over_sheet), py::arg("cell"), py::arg("sheet"), py::kw_only(),
+      py::arg("method") = "localized", py::arg("held") = py::none(), py::arg("has_slip") = false,
+      py::keep_alive<1, 2>(), py::keep_alive<1, 3>(),
+      "method: what up-sampling adds to the coarse motion, `affine`, `localized` (the paper's) "
+      "or `full`, or terms as in `localized+modes`. held: edges on lattice lines that are held, "
+      "of left, right, bottom, top, for the term edges. has_slip: of a coarse cloth that moves by "
+      "that term. What a method cannot have here is left out with a warning.")
+    .def(py::init(&over_garment), py::arg("cell"), py::arg("garment"), py::kw_only(),
          py::arg("method") = "localized", py::arg("held") = py::none(), py::arg("has_slip") = false,
          py::keep_alive<1, 2>(), py::keep_alive<1, 3>(),
-         "method: what up-sampling adds to the coarse motion, `affine`, `localized` (the paper's) "
-         "or `full`, or terms as in `localized+modes`. held: edges of the sheet that are held, of "
-         "left, right, bottom, top, for the term edges. has_slip: of a coarse cloth that moves by "
-         "that term. What a method cannot have here is left out with a warning.")
-    .def(py::init(&over_garment), py::arg("cell"), py::arg("garment"), py::kw_only(),
-         py::arg("method") = "localized", py::keep_alive<1, 2>(), py::keep_alive<1, 3>(),
-         "garment: a Garment of the same cell.")
+         "garment: a Garment of the same cell. held: of all its panels; edges that are sewn or lie "
+         "on no lattice line have no terms of edges.")
     .def_property_readonly(
       "n_fine", [](const CellUpsampler &of) { return of.in_space.n_fine(); },
       "Number of fine vertices.")

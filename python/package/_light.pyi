@@ -150,7 +150,15 @@ class Upsampler:
         has_slip: bool = ...,
     ) -> None: ...
     @overload
-    def __init__(self, cell: Cell, garment: Garment, *, method: str = ...) -> None: ...
+    def __init__(
+        self,
+        cell: Cell,
+        garment: Garment,
+        *,
+        method: str = ...,
+        held: Sequence[str] | None = ...,
+        has_slip: bool = ...,
+    ) -> None: ...
     @property
     def n_fine(self) -> int: ...
     @property

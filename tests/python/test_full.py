@@ -101,7 +101,7 @@ class Methods(WithFolder):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             full = homespun.Upsampler(cell, garment, method="full-p2-cubic")
-        self.assertIn("edges are left out, because the cloth is no sheet", str(caught[0].message))
+        self.assertIn("edges are left out, because no edge of a panel", str(caught[0].message))
         self.assertEqual(full.terms, ["modes", "micro"])
         moved = numpy.column_stack([rest * [1.05, 0.97], [0., 0.01, 0.003, 0.]])
         localized = homespun.Upsampler(cell, garment)
@@ -119,6 +119,42 @@ class Methods(WithFolder):
         found = read_vtu(self.folder / "upsampled-garment" / "frame-of-garment.vtu")
         numpy.testing.assert_array_equal(found.points, full.upsample(moved))
 
+    def test_a_panel_on_lattice_lines_takes_edges_where_it_lies_on_them(self):
+        cell = homespun.homogenize(CELLS / "layered.prm", bars=False)
+        side = cell.lattice[0, 0]
+        rest = side * numpy.array([[0., 0.], [4., 0.], [3.3, 3.], [0., 3.]])
+        triangles = numpy.array([[0, 1, 2], [0, 2, 3]])
+        garment = homespun.Garment(cell, rest, triangles)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            upsampler = homespun.Upsampler(cell, garment, method="full-p2-cubic", held=["bottom"])
+        told = [str(one.message) for one in caught]
+        self.assertEqual(told, [
+            "method full-p2-cubic: edges have layers at left (free) of panel 0; bottom (held) of "
+            "panel 0; top (free) of panel 0; none along the 0 % of the outlines that are sewn and "
+            "the 23 % that lie on no lattice line"])
+        self.assertEqual(upsampler.terms, ["edges", "modes", "micro"])
+        moved = numpy.column_stack([rest * [1.05, 0.97], numpy.zeros(4)])
+        fine = upsampler.upsample(moved)
+        # A held edge is where it is held, away from its ends.
+        on_edge = numpy.abs(garment.vertices[:, 1]) < 1e-9
+        middle = on_edge & (numpy.abs(garment.vertices[:, 0] - 2. * side) < side)
+        self.assertGreater(middle.sum(), 10)
+        affine = homespun.Upsampler(cell, garment, method="affine").upsample(moved)
+        largest = numpy.abs(fine - affine).max()
+        self.assertLess(numpy.abs(fine - affine)[middle].max(), 0.01 * largest)
+        # The command says the same, and gives the same bits.
+        cell.write(self.folder / "layered-edges.h5")
+        for name, positions in (("panel", numpy.column_stack([rest, numpy.zeros(4)])),
+                                ("frame-of-panel", moved)):
+            write_obj(self.folder / f"{name}.obj", positions, triangles)
+        said = run("upsample", self.folder / "layered-edges.h5", "--rest",
+                   self.folder / "panel.obj", self.folder / "frame-of-panel.obj", "--method",
+                   "full-p2-cubic", "--held", "bottom", "--output", self.folder / "upsampled-panel")
+        self.assertIn(f"homespun: {told[0]}", said.splitlines())
+        found = read_vtu(self.folder / "upsampled-panel" / "frame-of-panel.vtu")
+        numpy.testing.assert_array_equal(found.points, fine)
+
     def test_refusals_say_what_to_do(self):
         path = self.folder / "old.h5"
         subprocess.run([os.environ["HOMESPUN_MAKE_CELL"], path], check=True)
@@ -127,7 +163,7 @@ class Methods(WithFolder):
         for choices, words in (
                 ({"method": "fuller"}, "no preset is called `fuller`"),
                 ({"method": "localized+modes"}, "make its cell.h5 again with `homespun homog"),
-                ({"method": "localized+edges"}, "`held` does not say which edges of the sheet"),
+                ({"method": "localized+edges"}, "`held` does not say which edges on lattice"),
                 ({"method": "localized+edges", "held": ["top"]}, "the cell has no terms of edges"),
                 ({"held": ["upper"]}, "held: found `upper`")):
             with self.assertRaises(homespun.BadInput) as caught:

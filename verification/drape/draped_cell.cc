@@ -65,7 +65,7 @@ std::string why_not(const Term term, const Scene &scene, const std::optional<Law
     return {};
   if (!scene.is_sheet() && term != Term::modes)
     return "` is a garment, " +
-           std::string(term == Term::edges ? "whose outlines and seams are no lattice lines"
+           std::string(term == Term::edges ? "whose coarse cloth has no terms of edges"
                        : term == Term::p2  ? "whose panels six-node triangles do not fill"
                                            : "whose coarse cloth has no cubic energy") +
            "; expected a sheet: leave the term out";

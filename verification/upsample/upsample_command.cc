@@ -62,8 +62,8 @@ void add_method(CLI::App &command, UpsampleOptions &study)
                 "as in localized+modes")
     ->capture_default_str();
   add_list(command, "--held", study.held,
-           "Edges of a sheet of whole cells that are held, for the term edges, comma-separated: "
-           "left, right, bottom, top, or none");
+           "Edges on lattice lines that are held, of all panels, for the term edges, "
+           "comma-separated: left, right, bottom, top, or none");
   command.add_flag_callback(
     "--slip", [&study]() { study.slip = localization::Slip::of_cloth; },
     "Held edges of the coarse frames have slip already, as those of `drape` with the term edges");
@@ -121,15 +121,16 @@ void UpsampleCommand::add(CommandLine &line)
     "and y of a plane\n"
     "z = const, x and -z of y = const, y and z of x = const, and else the x axis in the plane and "
     "what is to its\n"
-    "left, seen from above. A mesh that covers a parallelogram of whole cells is a sheet, with two "
-    "triangles per\n"
-    "cell the fast way; cells are cut along the outlines of all else.\n\n"
-    "--method full adds second-order or fitted modes, as cell.h5 has them, and on a sheet of whole "
-    "cells boundary\n"
-    "layers at its edges, if you say with --held which are held. The terms p2 and cubic belong to "
-    "a coarse cloth, and\n"
-    "yours is given. Fitted modes of weaves are in the CELL/cell.h5 of `homespun strain`. What is "
-    "left out is said.\n\n"
+    "left, seen from above. A sheet of whole cells, two triangles each, is up-sampled the fast "
+    "way; cells are cut\n"
+    "along the outlines of all else.\n\n"
+    "--method full adds second-order or fitted modes, as cell.h5 has them, and boundary layers at "
+    "edges that lie on\n"
+    "lattice lines of the cells and are not sewn, if you say with --held which are held. The terms "
+    "p2 and cubic belong\n"
+    "to a coarse cloth, and yours is given. Fitted modes of weaves are in the CELL/cell.h5 of "
+    "`homespun strain`. What\n"
+    "is left out is said, and at which edges of which panels there are layers.\n\n"
     "upsample.csv says of each frame, without a reference, where its error may come from: `strain` "
     "(against the\n"
     "range of validity of the cell, where it is known), `strain_change` across one cell, and "

@@ -76,7 +76,7 @@ public:
                                  options.angle * M_PI / 180.};
     fine                      = std::make_unique<UpsampledCloth>(
       cell, rest.cloth, grain, localization::Method(options.method),
-      localization::GivenCloth{true, options.held, options.slip});
+      localization::GivenCloth{options.held, options.slip, {}});
     if (fine->method.used.has(localization::Term::micro))
       valid =
         valid_strain(cell, options.cell_file, options.validity_file, options.limit, fine->method);

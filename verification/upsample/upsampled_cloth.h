@@ -18,13 +18,13 @@ namespace homespun::verification
 {
 struct UpsampledCloth
 {
-  /// Lays the cell: where the coarse mesh covers a parallelogram of whole cells, to 1e-6 of a cell
-  /// side (the digits of usual files), as such a sheet, which has edges (in the order of
-  /// meshes::coarse_sheet(), two triangles per cell or, as six-node triangles are read, eight: the
-  /// fast way); else over the panels, cut along their outlines (meshes::fine_cloth()).
+  /// Lays the cell: where the coarse mesh is that of a sheet of whole cells, to 1e-6 of a cell side
+  /// (the digits of usual files; in the order of meshes::coarse_sheet(), two triangles per cell or,
+  /// as six-node triangles are read, eight), as that sheet, the fast way; else over the panels, cut
+  /// along their outlines (meshes::fine_cloth()).
   /// @param rest the coarse cloth with its panels at rest
   /// @param grain how the cells lie on all panels
-  /// @param given beside its mesh: whether it is a sheet is found out
+  /// @param given beside its panels, which are found out
   /// @throws BadInput where cell and cloth do not fit
   UpsampledCloth(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &rest,
                  const meshes::Grain &grain,

@@ -62,7 +62,8 @@ class MethodsOfTheirOwn(SceneCase):
                           "conserving", self.refused({"Integrator": "conserving"},
                                                      f"localized,localized+{term}"))
         held = {"Terms": "membrane, gravity, damping, pins", "Pins": "vertices 0 1"}
-        for term, words in (("edges", "whose outlines"), ("p2", "whose panels six-node triangles"),
+        for term, words in (("edges", "whose coarse cloth has no terms of edges"),
+                            ("p2", "whose panels six-node triangles"),
                             ("cubic", "whose coarse cloth has no cubic energy")):
             self.assertIn(f"is a garment, {words}", self.refused(
                 held, f"localized+{term}", name="hang", garment=TRIANGLE))

@@ -64,7 +64,7 @@ class Oracles(Upsampling):
         self.assertEqual(said[1], drawn)
         self.assertNotEqual(said[0], drawn)  # of a cloth whose edges lie where they are held
         refused = self.upsample(made / "coarse_*.obj", "--method", method, status=2)
-        self.assertIn("`held` does not say which edges of the sheet are held", refused)
+        self.assertIn("`held` does not say which edges on lattice lines are held", refused)
 
     def test_a_uniform_strain_gives_affine_and_chi(self):
         E11 = 0.03

@@ -22,6 +22,7 @@ namespace homespun::verification
 namespace
 {
 using localization::GivenCloth;
+using localization::Panel;
 using localization::Slip;
 
 /// As `homespun homogenize` leaves it, read back from the file; with modes of no cell in the place
@@ -72,7 +73,7 @@ TEST(exact_given_method, from_the_coarse_positions_of_a_study_come_its_fine_ones
       const Method method(name);
       const CoarseModel model(known, sheet, load, method, law);
       const CoarseState state = model.solve(0.03);
-      const GivenCloth given  = {true, {"left", "right"}, Slip::of_cloth};
+      const GivenCloth given  = {{"left", "right"}, Slip::of_cloth, {}};
       meshes::Points fine;
       localization::Upsampler<2, double>(cell, model.parts.space.grid.mesh, sheet,
                                          on_given(method, cell, given).options)
@@ -98,7 +99,7 @@ TEST(bound_given_method, held_edges_stay_where_they_are_held)
   {
     meshes::Points fine;
     localization::Upsampler<2, double>(cell, rest, sheet,
-                                       on_given(Method(method), cell, {true, held, slip}).options)
+                                       on_given(Method(method), cell, {held, slip, {}}).options)
       .upsample(moved, fine);
     return fine;
   };
@@ -148,7 +149,7 @@ TEST(exact_given_method, the_slip_of_one_held_edge_moves_the_whole_sheet_and_tur
     std::array<meshes::Points, 2> fine;
     for (const Slip slip : {Slip::added, Slip::of_cloth})
       localization::Upsampler<2, double>(cell, rest, sheet,
-                                         on_given(of, cell, {true, {"bottom"}, slip}).options)
+                                         on_given(of, cell, {{"bottom"}, slip, {}}).options)
         .upsample(positions, fine[slip == Slip::added ? 0 : 1]);
     return meshes::Points(fine[0] - fine[1]);
   };
@@ -175,8 +176,8 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
 {
   const meshes::HomogenizedCell cell = cell_of("layered", false);
   const auto left_out = [&](const char *const method, const std::vector<std::string> &held,
-                            const bool is_sheet = true) {
-    return on_given(Method(method), cell, {is_sheet, held}).left_out;
+                            const std::vector<Panel> &panels = {}) {
+    return on_given(Method(method), cell, {held, Slip::added, panels}).left_out;
   };
   EXPECT_EQ(left_out("localized+modes", {}), "");
   EXPECT_EQ(left_out("full-p2-cubic", {"none"}), "");
@@ -185,11 +186,29 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
   EXPECT_EQ(
     left_out("full-p2", {}),
     "method full-p2: cubic belongs to the coarse cloth, which is yours; edges are left out, "
-    "because `held` does not say which edges of the sheet are held: left, right, bottom, "
+    "because `held` does not say which edges on lattice lines are held: left, right, bottom, "
     "top, or none");
-  EXPECT_EQ(left_out("full-p2-cubic", {"top"}, false),
-            "method full-p2-cubic: edges are left out, because the cloth is no sheet of whole "
-            "cells, whose edges are lattice lines");
+  // Panels, of which one has no edge on a lattice line, two have some, and in all two kinds.
+  std::vector<Panel> panels(3);
+  for (Panel &panel : panels)
+    panel.length = 1.;
+  EXPECT_EQ(left_out("full-p2-cubic", {"top"}, panels),
+            "method full-p2-cubic: edges are left out, because no edge of a panel that is not sewn "
+            "lies on a lattice line of its cells");
+  panels[0].edges       = {{0, 2, {0., 4.}, {}}, {3, 4, {2., 4.}, {}}, {3, 4, {5., 6.}, {}}};
+  panels[2].edges       = {{3, 7, {0., 4.}, {}}};
+  panels[0].edge_length = 0.5;
+  panels[2].edge_length = 0.25;
+  panels[1].sewn_length = 0.6;
+  const std::string layers =
+    "method full-p2-cubic: edges have layers at left (free) of panel 0; top (held) of panel 0, 2; "
+    "none along the 20 % of the outlines that are sewn and the 55 % that lie on no lattice line";
+  EXPECT_EQ(left_out("full-p2-cubic", {"top"}, panels), layers);
+  EXPECT_EQ(left_out("full-p2-cubic", {"top", "right"}, panels),
+            layers + "; no edge on a lattice line is `right`, which is held");
+  panels[0].edge_length = panels[1].edge_length = panels[2].edge_length = 1.;
+  panels[1].sewn_length                                                 = 0.;
+  EXPECT_EQ(left_out("full-p2-cubic", {"top"}, panels), ""); // there is nothing without
 
   meshes::HomogenizedCell old = cell;
   const auto refused          = [&](const char *const method, const std::vector<std::string> &held)
@@ -197,7 +216,7 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
     return tests::refusal(
       [&]()
       {
-        const auto given = on_given(Method(method), old, {true, held});
+        const auto given = on_given(Method(method), old, {held, Slip::added, {}});
         localization::anchored_quadratic(old, given.options.second_order, given.options.anchor);
       });
   };
