@@ -11,6 +11,8 @@ namespace
 /// A factor serves until it takes more iterations than this: those of a new one, one or two, and
 /// what a factorization costs, which is some dozen of them.
 constexpr unsigned int most_iterations_of_factor = 12;
+/// An old one is given up after so many: in vain they cost about as much as a factorization.
+constexpr unsigned int most_iterations_of_old_factor = 3 * most_iterations_of_factor;
 } // namespace
 
 void KeptPreconditioner::build(ElasticSolver &solver)
@@ -34,7 +36,7 @@ unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vec
                                        const ElasticSolver::Vector &forces, const double target,
                                        const unsigned int most_iterations)
 {
-  const bool is_new = is_old || !solver.has_preconditioner();
+  bool is_new = is_old || !solver.has_preconditioner();
   if (is_new)
     build(solver);
   // Should this solve fail, the next one has a preconditioner of its own.
@@ -43,7 +45,10 @@ unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vec
   unsigned int used = 0;
   try
   {
-    used = solver.solve(increment, forces, {target}, most_iterations);
+    used =
+      solver.solve(increment, forces, {target},
+                   is_factor && !is_new ? std::min(most_iterations, most_iterations_of_old_factor)
+                                        : most_iterations);
   }
   catch (const IndefiniteMatrix &)
   {
@@ -51,10 +56,19 @@ unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vec
   }
   catch (const meshes::NotConverged &)
   {
-    if (is_factor)
+    if (is_factor && is_new)
       throw;
-    solver.factorize();
-    is_factor = true;
+    if (is_factor)
+    {
+      build(solver);
+      is_old = true;
+    }
+    else
+    {
+      solver.factorize();
+      is_factor = true;
+    }
+    is_new    = true;
     increment = 0.;
     used      = solver.solve(increment, forces, {target}, most_iterations);
   }

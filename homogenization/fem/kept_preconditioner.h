@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Conjugate gradients with the preconditioner of an earlier matrix, as long as that serves: a
 // Cholesky factor on one rank where ElasticSolver::is_small(), else a multigrid hierarchy; where
-// conjugate gradients with that fail, a factor takes over.
+// conjugate gradients with that fail, a factor takes over, and a new factor where those with an old
+// one have cost as much as it does.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
