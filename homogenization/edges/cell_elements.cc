@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace homespun::homogenization
 {
@@ -83,11 +84,17 @@ void require_parallelogram(const UnitCell &cell, const meshes::Lattice &lattice,
 } // namespace
 
 CellElements::CellElements(const UnitCell &cell, const unsigned int order)
+    : CellElements(cell, order, cell.stiffness_of_phase())
+{
+}
+
+CellElements::CellElements(const UnitCell &cell, const unsigned int order,
+                           std::vector<Eigen::Matrix3d> stiffness_of_phase)
     : cell(cell)
     , torus(glued(cell.mesh, cell.lattice))
     , class_of(torus.vertex_of_original)
     , n_classes(torus.n_vertices + (order == 2 ? torus.n_edges() : 0))
-    , stiffness(cell.stiffness_of_phase())
+    , stiffness_of_phase(std::move(stiffness_of_phase))
     , origin(cell.mesh.vertices.row(meshes::anchor_vertex(cell.mesh, cell.lattice)))
 {
   require_parallelogram(cell, cell.lattice, origin);
@@ -122,7 +129,7 @@ CellElements::CellElements(const UnitCell &cell, const unsigned int order)
 
 const Eigen::Matrix3d &CellElements::stiffness_of(const int triangle) const
 {
-  return stiffness[static_cast<std::size_t>(cell.mesh.material(triangle))];
+  return stiffness_of_phase[static_cast<std::size_t>(cell.mesh.material(triangle))];
 }
 
 Eigen::RowVector2d CellElements::fraction(const Eigen::RowVector2d &point) const
@@ -181,7 +188,7 @@ void take_mean_off(const CellElements &elements, Eigen::MatrixXd &w)
 
 ElementCellProblem solve_cell(const CellElements &elements)
 {
-  const CompatibleStrain solved(elements.torus, elements.cell.stiffness_of_phase(),
+  const CompatibleStrain solved(elements.torus, elements.stiffness_of_phase,
                                 elements.n_shapes() == 3 ? 1 : 2);
   ElementCellProblem problem{-solved.chi_at_nodes(), solved.stiffness};
   take_mean_off(elements, problem.w);

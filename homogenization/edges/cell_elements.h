@@ -30,6 +30,11 @@ public:
   ///   a sheet is a lattice line
   CellElements(const UnitCell &cell, unsigned int order);
 
+  /// The same of other stiffnesses than those of the cell's membrane.
+  /// @param stiffness_of_phase (3,3) each
+  CellElements(const UnitCell &cell, unsigned int order,
+               std::vector<Eigen::Matrix3d> stiffness_of_phase);
+
   /// Points of quadrature of a triangle.
   std::vector<ElementPoint> points_of(int triangle) const;
 
@@ -60,9 +65,9 @@ public:
   std::vector<int>
     class_of; ///< of each node: a vertex of the torus, or one of its edges after them
   const int n_classes;
+  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
 
 private:
-  std::vector<Eigen::Matrix3d> stiffness;
   Eigen::RowVector2d origin;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/edges/edge_layers.h"
 
+#include "homogenization/bracket/bending_bracket.h"
 #include "meshes/plain/errors.h"
 
 #include <Eigen/Cholesky>
@@ -270,9 +271,11 @@ void require_decay(const UnitCell &cell, const EdgeOptions &options, const int a
 }
 } // namespace
 
-meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options)
+namespace
 {
-  const CellElements elements(cell, options.order);
+meshes::CellEdges edges_of_elements(const CellElements &elements, const EdgeOptions &options)
+{
+  const UnitCell &cell             = elements.cell;
   const ElementCellProblem problem = solve_cell(elements);
   meshes::CellEdges edges;
   edges.bulk                 = bulk_term(elements, problem);
@@ -302,5 +305,21 @@ meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options)
     }
   }
   return edges;
+}
+} // namespace
+
+meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options)
+{
+  return edges_of_elements(CellElements(cell, options.order), options);
+}
+
+meshes::CellEdges edges_of_plate(const UnitCell &cell, const EdgeOptions &options)
+{
+  const CellElements elements(cell, options.order,
+                              analogous_membranes(cell.bending_stiffness_of_phase()));
+  if (!rim_edges(elements.torus).empty())
+    throw meshes::BadInput(cell.file + ": the cell has holes; the terms of edges of a plate are "
+                                       "known for cells without");
+  return edges_of_elements(elements, options);
 }
 } // namespace homespun::homogenization

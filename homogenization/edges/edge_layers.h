@@ -83,4 +83,17 @@ std::array<Eigen::Matrix3d, 2> bulk_term(const CellElements &elements,
 /// @throws BadInput where its edges are no lattice lines, or a mode decays too slowly for the cells
 ///   that it may take, with the factor; NotConverged where a part of the cell moves freely
 meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options);
+
+/// The edges of the cell's plate: those of its analogous membrane (bracket/bending_bracket.h),
+/// whose strains E = P^-1 M stand for the moments M = D^H kappa(w0) of the plate, and whose free
+/// edges for clamped ones of the plate, its clamped ones for free ones. The deflection is w0 + w1,
+///   clamped:  w1 = 0, dw1/dn = T_a E_a, n inwards: the cloth turns at a clamp
+///   and for all v that are clamped there, with s along free edges, the sheet on the left,
+///   integral kappa(v).D^H.kappa(w1) = integral M_abc d_b E_a (P^-1 D^H kappa(v))_c
+///                                     + sum over free edges integral (d_a E_a).d/ds(v,2, -v,1) ds
+/// The derivation is the membrane's: w is Airy's function of the analogous membrane, whose line
+/// tension is a kink of w, and whose displacements are the potential of the moments.
+/// @throws BadInput as above, and where the cell has holes, which are rigid in the analogous
+///   membrane; NotConverged as above
+meshes::CellEdges edges_of_plate(const UnitCell &cell, const EdgeOptions &options);
 } // namespace homespun::homogenization

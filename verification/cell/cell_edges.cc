@@ -10,7 +10,13 @@
 
 namespace homespun::verification
 {
-KnownEdges known_edges(const homogenization::UnitCell &cell, const unsigned int order)
+namespace
+{
+using EdgesOf = meshes::CellEdges(const homogenization::UnitCell &,
+                                  const homogenization::EdgeOptions &);
+
+KnownEdges known_by(EdgesOf &edges_of, const homogenization::UnitCell &cell,
+                    const unsigned int order)
 {
   KnownEdges known;
   homogenization::EdgeOptions options;
@@ -20,7 +26,7 @@ KnownEdges known_edges(const homogenization::UnitCell &cell, const unsigned int 
     {
       try
       {
-        known.edges = homogenization::edges_of(cell, options);
+        known.edges = edges_of(cell, options);
       }
       catch (const meshes::BadInput &refusal)
       {
@@ -32,6 +38,17 @@ KnownEdges known_edges(const homogenization::UnitCell &cell, const unsigned int 
       }
     });
   return known;
+}
+} // namespace
+
+KnownEdges known_edges(const homogenization::UnitCell &cell, const unsigned int order)
+{
+  return known_by(homogenization::edges_of, cell, order);
+}
+
+KnownEdges known_edges_of_plate(const homogenization::UnitCell &cell)
+{
+  return known_by(homogenization::edges_of_plate, cell, 2);
 }
 
 KnownEdges affordable_edges(const homogenization::UnitCell &cell, const unsigned int order)

@@ -21,7 +21,10 @@ struct KnownEdges
 /// @param order 1 or 2, that of its chi
 KnownEdges known_edges(const homogenization::UnitCell &cell, unsigned int order);
 
-/// The same for a file that carries them in case somebody asks; none, with an estimate, where they
-/// would take longer than all else. Studies that need them make them whatever it takes.
+/// Those of the cell's plate (homogenization/edges/edge_layers.h), by displacements of order 2.
+KnownEdges known_edges_of_plate(const homogenization::UnitCell &cell);
+
+/// known_edges() for a file that carries them in case somebody asks; none, with an estimate, where
+/// they would take longer than all else. Studies that need them make them whatever it takes.
 KnownEdges affordable_edges(const homogenization::UnitCell &cell, unsigned int order);
 } // namespace homespun::verification

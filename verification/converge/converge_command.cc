@@ -20,7 +20,9 @@ void ConvergeCommand::add(CommandLine &line)
     "Observed orders in mesh, adaptivity, cells per sheet, coarse mesh, strain and time step");
   const auto arguments           = std::make_shared<Arguments>();
   ConvergenceStudyOptions &study = arguments->study;
-  study.studies                  = convergence_studies();
+  for (const std::string &name : convergence_studies())
+    if (name != "bending") // is asked for
+      study.studies.push_back(name);
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--studies", study.studies, "Studies, comma-separated");
   command->add_flag("--quick", study.is_quick, "Fewer and smaller levels: a minute");
@@ -29,11 +31,14 @@ void ConvergeCommand::add(CommandLine &line)
     {"out/NAME/converge, with --quick out/NAME/converge-quick",
      "Studies: mesh (uniform refinement of the cell, P1 and P2), adaptive (width of "
      "the bracket on C^H), scale\n"
-     "(cells per sheet), coarse (coarse triangles per cell), strain (periodic loads "
+     "(cells per sheet), coarse (coarse triangles per cell), edges (cells per sheet, with the "
+     "terms of edges), bending\n"
+     "(cells per sheet that is bent: only where it is named), strain (periodic loads "
      "under biot), time (steps of the coarse cloth).\n"
      "An order that has not settled is INCONCLUSIVE, not a failure: exit status 4.\n"
      "Example:\n  homespun converge mycell.prm --quick\n"
-     "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale"},
+     "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale\n"
+     "  homespun converge mycell.prm --quick --studies bending"},
     [](const Arguments &given)
     {
       ArgumentFaults faults;

@@ -16,6 +16,27 @@ namespace homespun::verification
 {
 using homogenization::UnitCell;
 
+double corner_exponent(const meshes::Lattice &lattice, const Eigen::Matrix3d &stiffness,
+                       const int clamped)
+{
+  // The edge where axis 1 ends lies along a2, the free one beside it along a1.
+  Eigen::RowVector2d ray = lattice.vectors.row(1 - clamped), free = lattice.vectors.row(clamped);
+  double least = 2.;
+  for (const double turn : {1., -1.}) // the four corners are two, each twice
+  {
+    const auto angle_of = [](const Eigen::RowVector2d &v) { return std::atan2(v(1), v(0)); };
+    homogenization::Corner corner;
+    corner.is_closed = false;
+    const double a = angle_of(ray), b = angle_of(turn * free),
+                 width = std::remainder(b - a, 2. * M_PI);
+    corner.clamped =
+      width > 0. ? homogenization::ClampedRay::first : homogenization::ClampedRay::last;
+    corner.sectors = {{std::min(a, a + width), std::max(a, a + width), stiffness}};
+    least          = std::min(least, homogenization::exponents_of(corner).front());
+  }
+  return least;
+}
+
 namespace
 {
 /// What the cases of a cell share.
@@ -38,29 +59,6 @@ Series series_of(const std::string &method)
   series.quantity = method + ": mean error per strain [cell sides]";
   series.h_unit   = "cell sides per sheet side";
   return series;
-}
-
-/// The exponent of the corner between the clamped and the free edges of a sheet.
-double corner_exponent(const meshes::HomogenizedCell &cell, const Load &load)
-{
-  const int clamped = load.axis();
-  // The edge normal to lattice axis 1 is clamped lies along a2, and the free one along a1.
-  Eigen::RowVector2d ray  = cell.lattice.vectors.row(1 - clamped),
-                     free = cell.lattice.vectors.row(clamped);
-  double least            = 2.;
-  for (const double turn : {1., -1.}) // the four corners are two, each twice
-  {
-    const auto angle_of = [](const Eigen::RowVector2d &v) { return std::atan2(v(1), v(0)); };
-    homogenization::Corner corner;
-    corner.is_closed = false;
-    const double a = angle_of(ray), b = angle_of(turn * free),
-                 width = std::remainder(b - a, 2. * M_PI);
-    corner.clamped =
-      width > 0. ? homogenization::ClampedRay::first : homogenization::ClampedRay::last;
-    corner.sectors = {{std::min(a, a + width), std::max(a, a + width), cell.stiffness}};
-    least          = std::min(least, homogenization::exponents_of(corner).front());
-  }
-  return least;
 }
 
 ConvergenceResult with_corners(const EdgedCell &of, const Load &load)
@@ -91,7 +89,8 @@ ConvergenceResult with_corners(const EdgedCell &of, const Load &load)
       break;
   if (full.levels.empty())
     return result;
-  const double exponent = corner_exponent(of.homogenized, load);
+  const double exponent =
+    corner_exponent(of.homogenized.lattice, of.homogenized.stiffness, load.axis());
   full.judgement =
     judge_errors(full.sizes(), full.errors(), {std::min(1., 2. * exponent - 1.) - 0.1, 1.1});
   result.add(full, "edge-order.corners");

@@ -5,8 +5,8 @@ namespace homespun::verification
 {
 const std::vector<std::string> &convergence_studies()
 {
-  static const std::vector<std::string> all = {"mesh",  "adaptive", "scale", "coarse",
-                                               "edges", "strain",   "time"};
+  static const std::vector<std::string> all = {"mesh",  "adaptive", "scale",  "coarse",
+                                               "edges", "bending",  "strain", "time"};
   return all;
 }
 } // namespace homespun::verification

@@ -6,6 +6,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/converge/converge_cases.h"
+#include "verification/converge/plate_sheet.h"
 #include "verification/ellipticity/default_law.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
@@ -30,6 +31,7 @@ ConvergenceSizes convergence_sizes(const bool quick)
   sizes.adaptive_dofs   = quick ? 60000 : 400000;
   sizes.cells_per_sheet = quick ? std::vector<int>{2, 4, 8, 16} : std::vector<int>{2, 4, 8, 16, 32};
   sizes.cells_of_edges  = quick ? std::vector<int>{4, 6, 10, 16} : std::vector<int>{5, 10, 20, 40};
+  sizes.cells_of_bending = quick ? std::vector<int>{3, 4, 6, 8} : std::vector<int>{4, 6, 8, 12};
   sizes.cells_of_coarse_study = quick ? 4 : 16;
   sizes.coarse_per_cell       = {0.5, 1., 2., 4., 8.};
   if (!quick)
@@ -142,6 +144,7 @@ private:
     inputs["adaptive_dofs"]         = sizes.adaptive_dofs;
     inputs["cells_per_sheet"]       = sizes.cells_per_sheet;
     inputs["cells_of_edges"]        = sizes.cells_of_edges;
+    inputs["cells_of_bending"]      = sizes.cells_of_bending;
     inputs["cells_of_coarse_study"] = sizes.cells_of_coarse_study;
     inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
     inputs["strains"]               = sizes.strains;
@@ -171,6 +174,10 @@ private:
     add("coarse", sheets, {"coarse-energy-falls", "coarse-order"});
     add("edges", sheets, {"edge-order"});
     add("edges", {"closed along axis 1"}, {"edge-order"});
+    std::vector<std::string> bent;
+    for (const BendingLoad &load : bending_loads)
+      bent.push_back(load.name);
+    add("bending", bent, {"bending-order", "closer-when-bent"});
     add("strain", Load::names_of(LoadKind::periodic), {"method-order"});
     add("time", {"linearly implicit Euler", "implicit Euler"}, {"time-order"});
     add("time", {"damped fall"}, {"damped-fall"});
@@ -217,6 +224,7 @@ private:
         { return coarse_cases(cell, h, sizes, communicator); });
     add("edges", [&](const UnitCell &cell, const auto &h)
         { return edge_cases(cell, h, sizes, communicator); });
+    add("bending", [&](const UnitCell &cell, const auto &) { return bending_cases(cell, sizes); });
     add("strain", [&](const UnitCell &cell, const auto &h)
         { return strain_cases(cell, h, sizes, communicator); });
     add("time", [&](const UnitCell &cell, const auto &h) { return time_cases(cell, h, sizes); });

@@ -146,6 +146,36 @@ class Converge(InFolder):
             self.assertAlmostEqual(float(row["h"]), float(row["dofs"]) ** -0.5,
                                    delta=1e-5 * float(row["h"]))
 
+    def test_a_bent_sheet_errs_by_order_1_with_d_h_alone_and_by_2_with_all_terms(self):
+        cell = broken_cells_test.Cell()
+        result = run("converge", cell.write(self.folder), "--quick", "--studies", "bending",
+                     "--no-report", "--output", self.folder / "out")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        rows = [row for row in rows_of(self.folder / "out" / "converge.csv")
+                if row["kind"] == "level" and row["case"] == "cantilever-2"]
+        errors = {}
+        for row in rows:
+            errors.setdefault(row["quantity"].split(" [")[0], []).append(float(row["error"]))
+        slopes = {name: math.log(some[0] / some[-1]) / math.log(8 / 3)
+                  for name, some in errors.items()}
+        self.assertAlmostEqual(slopes["affine: mean error of the deflection"], 1, delta=0.2)
+        self.assertAlmostEqual(slopes["full: mean error of the deflection"], 2, delta=0.5)
+        self.assertLess(errors["full: mean error of the normal"][-1],
+                        0.2 * errors["affine+edges: mean error of the normal"][-1])
+        claims = json.loads((self.folder / "out" / "verdicts.json").read_text())["verdicts"]
+        self.assertEqual(len([one for one in claims if one["id"] == "closer-when-bent"]), 10)
+
+    def test_of_a_cell_with_holes_the_terms_of_edges_are_missing_and_that_is_said(self):
+        cell = broken_cells_test.Cell()
+        cell.keep(lambda i, j: (i, j) != (3, 3))
+        result = run("converge", cell.write(self.folder), "--quick", "--studies", "bending",
+                     "--no-report", "--output", self.folder / "out")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("the cell has holes", result.stdout + result.stderr)
+        methods = {row["quantity"].split(":")[0] for row in
+                   rows_of(self.folder / "out" / "converge.csv") if row["kind"] == "level"}
+        self.assertEqual(methods, {"affine", "localized"})
+
     def test_an_unknown_study_is_refused_with_the_names_there_are(self):
         result = run("converge", CELLS / "layered.prm", "--studies", "mesh,knit", "--output",
                      self.folder)

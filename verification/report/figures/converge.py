@@ -177,17 +177,15 @@ def adaptive_figure(convergence):
 
 def method_lines(some):
     """A curve per load and method: colour and marker tell the load, dashes the method."""
+    some = list(some)
+    bent = dict.fromkeys(s.case for s in some if s.study == "bending")
+    own = dict(zip(bent, style.LOAD_STYLES))
     lines = []
     for s in some:
         method = s.name.split(":")[0]
+        colour, marker = own.get(s.case, style.load_style(s.case))
         lines.append(
-            Line(
-                s,
-                f"{s.case}, {method}",
-                style.load_colour(s.case),
-                style.load_marker(s.case),
-                METHOD_LINES.get(method, ":"),
-            )
+            Line(s, f"{s.case}, {method}", colour, marker, METHOD_LINES.get(method, ":"))
         )
     return lines
 
@@ -237,6 +235,26 @@ def edges_figure(convergence):
     )
 
 
+def bending_figure(convergence):
+    return order_figure(
+        [
+            (
+                cell,
+                "cell sides per sheet side",
+                f"mean error of the {what} [{unit}]",
+                method_lines(
+                    s
+                    for s in convergence.of("bending", cell)
+                    if s.name.endswith(what) and s.name.split(":")[0] in ("affine", "full")
+                ),
+            )
+            for cell in convergence.cells("bending")
+            for what, unit in (("deflection", "$k L^2$"), ("normal", "$k L$"))
+        ],
+        2,
+    )
+
+
 def strain_figure(convergence):
     # What is zero to round-off is not judged and has no order.
     return order_figure(
@@ -270,6 +288,7 @@ FIGURES = {
     "scale": scale_figure,
     "coarse": coarse_figure,
     "edges": edges_figure,
+    "bending": bending_figure,
     "strain": strain_figure,
     "time": time_figure,
 }

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/bracket/plate.h"
+
+#include "homogenization/algebra/refined_solution.h"
+#include "homogenization/bracket/equilibrated_stress.h"
+#include "meshes/plain/index.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace homespun::homogenization
+{
+using meshes::at;
+
+namespace
+{
+/// The piece of a Clough-Tocher triangle that holds a point, and its coordinates there.
+std::pair<int, Eigen::Vector3d> in_piece(const Eigen::Vector3d &barycentric)
+{
+  int farthest = 0; // corner, which the piece does not touch
+  barycentric.minCoeff(&farthest);
+  const int piece    = (farthest + 1) % 3;
+  const double least = barycentric(farthest);
+  return {piece, {barycentric(piece) - least, barycentric((piece + 1) % 3) - least, 3. * least}};
+}
+
+double area_of(const PlateTriangle &triangle)
+{
+  const Eigen::Vector2d a = triangle.corners[1] - triangle.corners[0],
+                        b = triangle.corners[2] - triangle.corners[0];
+  return 0.5 * (a(0) * b(1) - a(1) * b(0));
+}
+
+Eigen::Matrix<double, 3, 12> curvatures_of(const Eigen::Matrix<double, 3, 12> &second_derivatives)
+{
+  Eigen::Matrix<double, 3, 12> kappa = second_derivatives;
+  kappa.row(2) *= 2.;
+  return kappa;
+}
+} // namespace
+
+ThinPlate::ThinPlate(PlateMesh mesh, std::vector<Eigen::Matrix3d> bending_stiffness_of_material)
+    : mesh(std::move(mesh))
+    , bending_stiffness_of_material(std::move(bending_stiffness_of_material))
+{
+}
+
+int ThinPlate::n_dofs() const
+{
+  return dof_of_side(static_cast<int>(mesh.normals.size()));
+}
+
+int ThinPlate::dof_of_side(const int side) const
+{
+  return 3 * mesh.n_vertices + side;
+}
+
+std::array<int, 12> ThinPlate::dofs_of(const int triangle) const
+{
+  const PlateTriangle &its = mesh.triangles[at(triangle)];
+  std::array<int, 12> dofs;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int d = 0; d < 3; ++d)
+      dofs[at(3 * k + d)] = 3 * its.vertices[at(k)] + d;
+    dofs[at(9 + k)] = dof_of_side(its.sides[at(k)]);
+  }
+  return dofs;
+}
+
+CloughTocher ThinPlate::element(const int triangle) const
+{
+  const PlateTriangle &its = mesh.triangles[at(triangle)];
+  return {
+    {Eigen::Vector2d::Zero(), its.corners[1] - its.corners[0], its.corners[2] - its.corners[0]},
+    {mesh.normals[at(its.sides[0])], mesh.normals[at(its.sides[1])],
+     mesh.normals[at(its.sides[2])]}};
+}
+
+ThinPlate::Shapes ThinPlate::shapes(const int triangle, const Eigen::Vector3d &barycentric) const
+{
+  const CloughTocher its    = element(triangle);
+  const auto [piece, point] = in_piece(barycentric);
+  Shapes rows;
+  rows.topRows<3>()    = its.value_and_gradient(piece, point);
+  rows.bottomRows<3>() = curvatures_of(its.second_derivatives(piece, point));
+  return rows;
+}
+
+ThinPlate::Values ThinPlate::values(const int triangle, const Eigen::Vector3d &barycentric,
+                                    const Eigen::VectorXd &deflection) const
+{
+  const auto dofs = dofs_of(triangle);
+  Eigen::Matrix<double, 12, 1> local;
+  for (int k = 0; k < 12; ++k)
+    local(k) = deflection(dofs[at(k)]);
+  return shapes(triangle, barycentric) * local;
+}
+
+Eigen::Matrix<double, 27, 12> ThinPlate::curvatures(const int triangle) const
+{
+  const CloughTocher its = element(triangle);
+  Eigen::Matrix<double, 27, 12> rows;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    const auto at_corners = its.second_derivatives_at_corners(piece);
+    for (int m = 0; m < 3; ++m)
+    {
+      const int q                         = 3 * piece + m;
+      const Eigen::Vector3d &point        = field_points()[at(q)].in_piece;
+      Eigen::Matrix<double, 3, 12> second = point(0) * at_corners[0];
+      second += point(1) * at_corners[1];
+      second += point(2) * at_corners[2];
+      rows.middleRows<3>(3 * q) = curvatures_of(second);
+    }
+  }
+  return rows;
+}
+
+Eigen::VectorXd ThinPlate::pressure() const
+{
+  // Cubic in each piece: corners, middles of sides and centroid, exact to degree 3.
+  constexpr std::array<std::array<double, 4>, 7> rule = {{{1., 0., 0., 0.05},
+                                                          {0., 1., 0., 0.05},
+                                                          {0., 0., 1., 0.05},
+                                                          {0.5, 0.5, 0., 2. / 15.},
+                                                          {0., 0.5, 0.5, 2. / 15.},
+                                                          {0.5, 0., 0.5, 2. / 15.},
+                                                          {1. / 3., 1. / 3., 1. / 3., 0.45}}};
+  Eigen::VectorXd load                                = Eigen::VectorXd::Zero(n_dofs());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+  {
+    const CloughTocher its = element(t);
+    const double area      = area_of(mesh.triangles[at(t)]);
+    const auto dofs        = dofs_of(t);
+    for (int piece = 0; piece < 3; ++piece)
+      for (const auto &[a, b, c, weight] : rule)
+      {
+        const auto rows = its.value_and_gradient(piece, {a, b, c});
+        for (int k = 0; k < 12; ++k)
+          load(dofs[at(k)]) += area / 3. * weight * rows(0, k);
+      }
+  }
+  return load;
+}
+
+Eigen::MatrixXd ThinPlate::of_moments(const std::vector<Eigen::MatrixXd> &moments_of_triangle) const
+{
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n_dofs(), moments_of_triangle.front().cols());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+  {
+    const Eigen::Matrix<double, 27, 12> kappa = curvatures(t);
+    Eigen::Matrix<double, 3, 12> integral     = Eigen::Matrix<double, 3, 12>::Zero();
+    for (int q = 0; q < n_field_points; ++q)
+      integral += area_of(mesh.triangles[at(t)]) / n_field_points * kappa.middleRows<3>(3 * q);
+    const auto dofs              = dofs_of(t);
+    const Eigen::MatrixXd forces = integral.transpose() * moments_of_triangle[at(t)];
+    for (int k = 0; k < 12; ++k)
+      loads.row(dofs[at(k)]) += forces.row(k);
+  }
+  return loads;
+}
+
+Eigen::MatrixXd ThinPlate::solve(const Eigen::MatrixXd &loads,
+                                 const std::vector<HeldDof> &held) const
+{
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(n_dofs(), loads.cols());
+  std::vector<int> unknown(at(n_dofs()), 0);
+  for (const HeldDof &one : held)
+  {
+    unknown[at(one.dof)] = -1;
+    solution.row(one.dof).setConstant(one.value);
+  }
+  int n = 0;
+  for (int &number : unknown)
+    if (number >= 0)
+      number = n++;
+  Eigen::MatrixXd right(n, loads.cols());
+  for (int d = 0; d < n_dofs(); ++d)
+    if (unknown[at(d)] >= 0)
+      right.row(unknown[at(d)]) = loads.row(d);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(78 * mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+  {
+    const PlateTriangle &its                  = mesh.triangles[at(t)];
+    const Eigen::Matrix<double, 27, 12> kappa = curvatures(t);
+    const Eigen::Matrix3d &D                  = bending_stiffness_of_material[at(its.material)];
+    Eigen::Matrix<double, 12, 12> stiffness   = Eigen::Matrix<double, 12, 12>::Zero();
+    for (int q = 0; q < n_field_points; ++q)
+      stiffness += area_of(its) / n_field_points * kappa.middleRows<3>(3 * q).transpose() * D *
+                   kappa.middleRows<3>(3 * q);
+    const auto dofs = dofs_of(t);
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j)
+      {
+        const int row = unknown[at(dofs[at(i)])], column = unknown[at(dofs[at(j)])];
+        if (row < 0)
+          continue;
+        if (column < 0)
+          right.row(row) -= stiffness(i, j) * solution.row(dofs[at(j)]);
+        else if (row >= column)
+          entries.emplace_back(row, column, stiffness(i, j));
+      }
+  }
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixXd found = refined_solution(matrix, right, "plate").values;
+  for (int d = 0; d < n_dofs(); ++d)
+    if (unknown[at(d)] >= 0)
+      solution.row(d) = found.row(unknown[at(d)]);
+  return solution;
+}
+
+PlateCell solve_plate_cell(const TorusMesh &mesh,
+                           const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material)
+{
+  const ThinPlate plate(PlateMesh(mesh), bending_stiffness_of_material);
+  std::vector<Eigen::MatrixXd> moments;
+  PlateCell cell;
+  cell.stiffness.setZero();
+  for (const PlateTriangle &triangle : plate.mesh.triangles)
+  {
+    const Eigen::Matrix3d &D = bending_stiffness_of_material[at(triangle.material)];
+    moments.emplace_back(-D);
+    cell.stiffness += area_of(triangle) * D;
+  }
+  const Eigen::MatrixXd loads = plate.of_moments(moments);
+  const Eigen::MatrixXd phi   = plate.solve(loads, {{3 * mesh.anchor, 0.}});
+  // The minimum is the energy without phi, less that of phi, which is ½ loads.phi.
+  cell.stiffness -= 0.5 * (loads.transpose() * phi + phi.transpose() * loads);
+  cell.stiffness /= mesh.lattice.area();
+  cell.deflection.resize(mesh.n_vertices, 3);
+  cell.slope.resize(2 * mesh.n_vertices, 3);
+  for (int v = 0; v < mesh.n_vertices; ++v)
+  {
+    cell.deflection.row(v)          = phi.row(3 * v);
+    cell.slope.middleRows<2>(2 * v) = phi.middleRows<2>(3 * v + 1);
+  }
+  return cell;
+}
+} // namespace homespun::homogenization

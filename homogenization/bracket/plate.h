@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Kirchhoff's plate, resolved by Clough-Tocher triangles: the deflection w that minimises
+//   ½ integral kappa(w).D.kappa(w) − loads,   kappa = (w,11, w,22, 2 w,12),
+// D per triangle. The triangles conform, so that the energy lies above the exact one; errors are
+// O(h^4) in w and O(h^2) in kappa where w is smooth. A plate of the phases of a cell is the
+// reference of bending, one of D^H the homogenized sheet, one on a glued cell the cell problem.
+#pragma once
+
+#include "homogenization/bracket/clough_tocher.h"
+#include "homogenization/bracket/plate_mesh.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// A degree of freedom whose value is given.
+struct HeldDof
+{
+  int dof;
+  double value;
+};
+
+/// A plate and its degrees of freedom: w, w,1, w,2 at each vertex, 3 v + 0, 1, 2; then the
+/// derivative along the normal in the middle of each side of the mesh.
+class ThinPlate
+{
+public:
+  /// Values of the twelve shapes of a triangle at a point, rows w, w,1, w,2, w,11, w,22, 2 w,12.
+  using Shapes = Eigen::Matrix<double, 6, 12>;
+  /// The same of a deflection.
+  using Values = Eigen::Matrix<double, 6, 1>;
+
+  /// @param bending_stiffness_of_material D [N m]
+  ThinPlate(PlateMesh mesh, std::vector<Eigen::Matrix3d> bending_stiffness_of_material);
+
+  int n_dofs() const;
+  int dof_of_side(int side) const;
+  std::array<int, 12> dofs_of(int triangle) const;
+
+  /// @param barycentric coordinates in the triangle
+  Shapes shapes(int triangle, const Eigen::Vector3d &barycentric) const;
+  Values values(int triangle, const Eigen::Vector3d &barycentric,
+                const Eigen::VectorXd &deflection) const;
+
+  /// integral v, of a pressure of 1 [m^2 per m of v].
+  Eigen::VectorXd pressure() const;
+
+  /// integral kappa(v).m of moments that are constant in each triangle.
+  /// @param moments_of_triangle (3,loads) [N]
+  Eigen::MatrixXd of_moments(const std::vector<Eigen::MatrixXd> &moments_of_triangle) const;
+
+  /// The deflections under loads (n_dofs,loads), with the same held degrees of freedom.
+  /// @throws NotConverged where the plate moves freely
+  Eigen::MatrixXd solve(const Eigen::MatrixXd &loads, const std::vector<HeldDof> &held) const;
+
+  const PlateMesh mesh;
+  const std::vector<Eigen::Matrix3d> bending_stiffness_of_material;
+
+private:
+  CloughTocher element(int triangle) const;
+  /// kappa of the shapes at the points where products of two of them are integrated, weight area/9.
+  Eigen::Matrix<double, 27, 12> curvatures(int triangle) const;
+};
+
+/// How a cell bends: min over periodic phi of 1/|Y| integral (K + kappa(phi)).D.(K + kappa(phi)).
+struct PlateCell
+{
+  Eigen::Matrix3d stiffness;  ///< D^H [N m]
+  Eigen::MatrixXd deflection; ///< of the glued vertices under K11, K22, 2 K12 (n,3) [m^2]
+  Eigen::MatrixXd slope;      ///< its derivatives by x and y, rows 2 v and 2 v + 1 (2 n,3) [m]
+};
+
+/// Solves the cell problem; rims of holes are free.
+PlateCell solve_plate_cell(const TorusMesh &mesh,
+                           const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material);
+} // namespace homespun::homogenization

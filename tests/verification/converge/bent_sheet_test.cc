@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// A sheet that bends: with w3 of the cell and all terms of edges the error of the deflection stays
+// in k eps², with D^H alone it grows as the number of cells; any term of the wrong sign, side or
+// size brings that back.
+#include "tests/homogenization/cell/cells.h"
+#include "verification/converge/bent_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+constexpr double side = 0.01;
+enum Method
+{
+  affine,
+  localized,
+  with_edges,
+  full
+};
+
+/// Three kinds of stripes along x, of which no mirror line is an edge: all terms have a part.
+homogenization::UnitCell three_stripes()
+{
+  return tests::cell_of(tests::square_lattice(side), 12, 20,
+                        {homogenization::isotropic("soft", 1e6, 0.1, 5e-4, 400.),
+                         homogenization::isotropic("hard", 2e7, 0.4, 5e-4, 400.),
+                         homogenization::isotropic("between", 5e6, 0.2, 5e-4, 400.)},
+                        [](const double, const double f2) {
+                          return f2 < 0.3 ? 0 : f2 < 0.6 ? 1 : 2;
+                        });
+}
+
+const BendingLoad &load_of(const std::string &name)
+{
+  for (const BendingLoad &load : bending_loads)
+    if (load.name == name)
+      return load;
+  throw std::logic_error(name);
+}
+
+/// How the errors in k eps² of all methods grow from 3 to 6 cells: 1 of second order, 2 of first.
+std::array<double, bending_methods.size()> growth(const BendingCell &cell, const std::string &load)
+{
+  const auto errors = [&](const int n)
+  { return bending_errors(cell, load_of(load), n, 36 / n).of_method; };
+  const auto few = errors(3), many = errors(6);
+  std::array<double, bending_methods.size()> ratios;
+  for (std::size_t m = 0; m < ratios.size(); ++m)
+    ratios[m] = many[m].position / few[m].position;
+  return ratios;
+}
+} // namespace
+
+TEST(order_bent_sheet, is_first_with_the_homogenized_plate_alone_and_second_with_all_terms)
+{
+  const homogenization::UnitCell unit = three_stripes();
+  const BendingCell cell(unit);
+  for (const char *load : {"roll", "cantilever-1", "cantilever-2", "twist"})
+  {
+    const auto of_method = growth(cell, load);
+    EXPECT_GT(of_method[affine], 1.6) << load;
+    EXPECT_NEAR(of_method[full], 1., 0.25) << load;
+  }
+  // All around clamped, what is left at the edge is a larger part of 3 cells.
+  const auto of_method = growth(cell, "pressure");
+  EXPECT_GT(of_method[affine], 2.);
+  EXPECT_LT(of_method[full], 1.25);
+}
+
+TEST(order_bent_sheet, normals_need_both_the_deflection_of_the_cell_and_the_edges)
+{
+  const homogenization::UnitCell unit = three_stripes();
+  const BendingCell cell(unit);
+  const auto errors = bending_errors(cell, load_of("cantilever-2"), 6, 6).of_method;
+  EXPECT_GT(errors[affine].normal, 20. * errors[full].normal);
+  EXPECT_GT(errors[localized].normal, 20. * errors[full].normal);
+  EXPECT_GT(errors[with_edges].normal, 5. * errors[full].normal);
+}
+
+TEST(exact_bent_sheet, of_one_material_is_the_homogenized_plate)
+{
+  const homogenization::UnitCell unit = tests::cell_of(
+    tests::square_lattice(side), 6, 6, {homogenization::isotropic("one", 1e6, 0.3, 5e-4, 400.)},
+    tests::everywhere_the_same);
+  const BendingCell cell(unit);
+  for (const BendingLoad &load : bending_loads)
+  {
+    // On the mesh of the reference itself but for its diagonals: what the corners leave of both.
+    const auto errors = bending_errors(cell, load, 4, 6).of_method;
+    for (const BendingError &error : errors)
+      EXPECT_LT(error.position, 1e-9) << load.name;
+  }
+}
+
+TEST(tripwire_bent_sheet, a_term_of_the_wrong_sign_side_or_size_is_noticed)
+{
+  const homogenization::UnitCell unit = three_stripes();
+  const auto planted                  = [&](const char *load, const auto &plant)
+  {
+    BendingCell cell(unit);
+    plant(*cell.known.edges, cell.solved);
+    return growth(cell, load)[full];
+  };
+  using Edges = meshes::CellEdges;
+  using Cell  = homogenization::PlateCell;
+  EXPECT_GT(planted("cantilever-2", [](Edges &edges, Cell &)
+                    { edges.sides[2].tension = edges.sides[3].tension.eval(); }),
+            1.5)
+    << "slip of the opposite edge";
+  EXPECT_GT(planted("cantilever-1", [](Edges &edges, Cell &) { edges.sides[3].slip *= -1.; }), 1.5)
+    << "sign of one beam";
+  EXPECT_GT(planted("cantilever-2", [](Edges &edges, Cell &) { edges.sides[2].tension *= 0.5; }),
+            1.5)
+    << "half of the slip";
+  EXPECT_GT(planted("cantilever-1",
+                    [](Edges &edges, Cell &)
+                    {
+                      for (Eigen::Matrix3d &of_axis : edges.bulk)
+                        of_axis *= -1.;
+                    }),
+            1.5)
+    << "sign of the gradient's term";
+  // w3 alone does not grow with the sheet: its faults are seen in the normals.
+  const auto normal = [&](const double factor)
+  {
+    BendingCell cell(unit);
+    cell.solved.deflection *= factor;
+    cell.solved.slope *= factor;
+    return bending_errors(cell, load_of("cantilever-2"), 6, 6).of_method[full].normal;
+  };
+  EXPECT_GT(normal(-1.), 5. * normal(1.)) << "sign of w3";
+  EXPECT_GT(normal(0.5), 2. * normal(1.)) << "half of w3";
+}

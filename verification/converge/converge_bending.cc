@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The study of bending: what D^H alone, w3 of the cell and the terms of edges leave of the error of
+// a bent sheet, on sheets of more and more cells in linear theory.
+#include "homogenization/bracket/bending_bracket.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
+#include "verification/converge/bent_sheet.h"
+#include "verification/converge/converge_cases.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+using meshes::at;
+
+namespace
+{
+/// Coarse quads along a side of the sheet, on which the macro problem counts as resolved.
+constexpr int n_quads = 40;
+
+/// The orders that the deflection with all terms may show, in sheet sides: nearer to 2 than to 1,
+/// the order of D^H alone, or to 3. What is of the next order moves those of 10 cells by a third.
+OrderLimit order_of(const BendingCell &bent, const BendingLoad &load)
+{
+  double order = 2.;
+  // In the analogous membrane free edges are clamped, and clamped ones free.
+  for (int axis = 0; axis < 2; ++axis)
+    if (load.is_clamped[at(2 * axis)] && !load.is_clamped[at(2 - 2 * axis)])
+      order = std::min(
+        order,
+        2. * corner_exponent(bent.cell.lattice,
+                             homogenization::analogous_membrane(bent.solved.stiffness), 1 - axis));
+  return {std::min(1.5, order - 0.1), 2.5};
+}
+
+/// The errors of a method over the levels: of the deflection and of the normal.
+struct MethodSeries
+{
+  explicit MethodSeries(const std::string &method)
+  {
+    position.quantity = method + ": mean error of the deflection [k L^2]";
+    normal.quantity   = method + ": mean error of the normal [k L]";
+    position.h_unit = normal.h_unit = "cell sides per sheet side";
+  }
+
+  Series position, normal;
+};
+
+ConvergenceResult bend(const BendingCell &bent, const BendingLoad &load, const std::vector<int> &ns)
+{
+  std::vector<MethodSeries> methods;
+  for (const char *name : bending_methods)
+    methods.emplace_back(name);
+  if (!bent.known.edges)
+    methods.resize(2, methods.front());
+  ConvergenceResult result;
+  const auto solve = [&](const int n)
+  {
+    const auto start             = std::chrono::steady_clock::now();
+    const BentSheetErrors errors = bending_errors(bent, load, n, std::max(1, n_quads / n));
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (std::size_t k = 0; k < methods.size(); ++k)
+    {
+      const auto add = [&](Series &series, const double error) {
+        series.levels.push_back({1. / n, errors.n_dofs, std::nullopt, error, seconds});
+      };
+      add(methods[k].position, errors.of_method[k].position / (n * n));
+      add(methods[k].normal, errors.of_method[k].normal / n);
+    }
+  };
+  for (const int n : ns)
+    if (!result.solves([&]() { solve(n); }))
+      break;
+  if (methods.front().position.levels.empty())
+    return result;
+  if (bent.known.edges)
+  {
+    MethodSeries &full = methods.back();
+    full.position.judgement =
+      judge_errors(full.position.sizes(), full.position.errors(), order_of(bent, load));
+    const auto closer = [&](const char *what, const Series &with, const Series &without)
+    {
+      const double ratio = *with.levels.back().error / *without.levels.back().error;
+      result.verdicts.push_back(judged("closer-when-bent", {{"what", what}},
+                                       ratio < 1. ? Outcome::pass : Outcome::fail, ratio));
+    };
+    closer("deflection", full.position, methods.front().position);
+    closer("normal", full.normal, methods.front().normal);
+  }
+  else
+  {
+    result.unfinished            = "no terms of edges; " + bent.known.why_not;
+    result.outcome_of_unfinished = Outcome::inconclusive;
+  }
+  for (MethodSeries &method : methods)
+  {
+    if (method.position.judgement)
+      result.add(method.position, "bending-order.edges");
+    else
+      result.add(method.position);
+    result.add(method.normal);
+  }
+  return result;
+}
+} // namespace
+
+std::vector<ConvergenceCase> bending_cases(const UnitCell &cell, const ConvergenceSizes &sizes)
+{
+  const auto bent = std::make_shared<BendingCell>(cell);
+  std::vector<ConvergenceCase> cases;
+  for (const BendingLoad &load : bending_loads)
+    cases.push_back({cell.name, "bending", load.name, [bent, load, ns = sizes.cells_of_bending]() {
+                       return bend(*bent, load, ns);
+                     }});
+  return cases;
+}
+} // namespace homespun::verification

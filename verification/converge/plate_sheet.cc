@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "verification/converge/plate_sheet.h"
+
+#include "homogenization/bracket/bending_bracket.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace homespun::verification
+{
+using homogenization::HeldDof;
+using homogenization::PlateTriangle;
+using homogenization::ThinPlate;
+using meshes::at;
+
+namespace
+{
+/// Points and weights of Gauss on 0 to 1, exact to degree 5.
+constexpr std::array<std::array<double, 2>, 3> gauss = {
+  {{0.1127016653792583, 5. / 18.}, {0.5, 4. / 9.}, {0.8872983346207417, 5. / 18.}}};
+
+/// The edge of the sheet that a point lies on, −1 inside.
+int edge_at(const Eigen::RowVector2d &fraction)
+{
+  for (int axis = 0; axis < 2; ++axis)
+    for (int far = 0; far < 2; ++far)
+      if (std::abs(fraction(axis) - far) < 2. * meshes::image_tolerance)
+        return 2 * axis + far;
+  return -1;
+}
+} // namespace
+
+PlateSheet::PlateSheet(const meshes::Sheet &sheet, const meshes::TriangleMesh &mesh,
+                       std::vector<Eigen::Matrix3d> bending_stiffness_of_material)
+    : plate(homogenization::PlateMesh(mesh), std::move(bending_stiffness_of_material))
+    , sheet(sheet)
+{
+  for (const homogenization::RimSide &rim : plate.mesh.rim())
+  {
+    const PlateTriangle &triangle = plate.mesh.triangles[at(rim.triangle)];
+    const Eigen::Vector2d &from   = triangle.corners[at(rim.side)],
+                          &to     = triangle.corners[at((rim.side + 1) % 3)];
+    const int edge                = edge_at(sheet.fraction(0.5 * (from + to).transpose()));
+    if (edge < 0)
+      continue; // the rim of a hole
+    const double length         = (to - from).norm();
+    const Eigen::Vector2d along = (to - from) / length;
+    edge_sides.push_back({rim, edge, along, {-along(1), along(0)}, length});
+  }
+}
+
+Eigen::Vector3d PlateSheet::on_side(const homogenization::RimSide &rim, const double part)
+{
+  Eigen::Vector3d barycentric     = Eigen::Vector3d::Zero();
+  barycentric(rim.side)           = 1. - part;
+  barycentric((rim.side + 1) % 3) = part;
+  return barycentric;
+}
+
+/// What the two sides at a vertex say is averaged: of one edge they say nearly the same, and where
+/// two clamped edges meet the curvature, and with it the slope, is zero.
+template <typename ClampedAt>
+std::vector<HeldDof> PlateSheet::held(const BendingLoad &load, ClampedAt &&clamped_at) const
+{
+  std::map<int, std::pair<double, int>> sums; // of a DoF
+  const auto add = [&](const int dof, const double value)
+  {
+    auto &[sum, n] = sums[dof];
+    sum += value;
+    ++n;
+  };
+  for (const EdgeSide &one : edge_sides)
+  {
+    if (!load.is_clamped[at(one.edge)])
+      continue;
+    const PlateTriangle &triangle = plate.mesh.triangles[at(one.rim.triangle)];
+    for (int end = 0; end < 2; ++end)
+    {
+      const int v                   = triangle.vertices[at((one.rim.side + end) % 3)];
+      const auto &[value, gradient] = clamped_at(one, static_cast<double>(end));
+      add(3 * v, value);
+      add(3 * v + 1, gradient(0));
+      add(3 * v + 2, gradient(1));
+    }
+    const int side = triangle.sides[at(one.rim.side)];
+    add(plate.dof_of_side(side), clamped_at(one, 0.5).gradient.dot(plate.mesh.normals[at(side)]));
+  }
+  std::vector<HeldDof> dofs;
+  for (const auto &[dof, sum] : sums)
+    dofs.push_back({dof, sum.first / sum.second});
+  return dofs;
+}
+
+Eigen::VectorXd PlateSheet::deflection(const BendingLoad &load, const double pressure) const
+{
+  Eigen::VectorXd forces = load.is_pressed ? Eigen::VectorXd(pressure * plate.pressure())
+                                           : Eigen::VectorXd::Zero(plate.n_dofs()).eval();
+  for (const EdgeSide &one : edge_sides)
+    if (load.is_rolled && one.edge == 1) // the moment works on the slope outwards
+      for (const auto &[part, weight] : gauss)
+      {
+        const ThinPlate::Shapes shapes = plate.shapes(one.rim.triangle, on_side(one.rim, part));
+        const auto dofs                = plate.dofs_of(one.rim.triangle);
+        for (int k = 0; k < 12; ++k)
+          forces(dofs[at(k)]) -= weight * one.length * one.inwards.dot(shapes.block<2, 1>(1, k));
+      }
+  const auto clamped_at = [&](const EdgeSide &one, const double part) -> Clamped
+  {
+    if (!load.is_twisted || one.edge != 1)
+      return {0., Eigen::Vector2d::Zero()};
+    const auto &corners        = plate.mesh.triangles[at(one.rim.triangle)].corners;
+    const Eigen::Vector2d to   = corners[at((one.rim.side + 1) % 3)],
+                          from = corners[at(one.rim.side)];
+    const Eigen::Vector2d middle =
+      (sheet.origin + sheet.sides().row(0) + 0.5 * sheet.sides().row(1)).transpose();
+    return {one.along.dot(from + part * (to - from) - middle), one.along};
+  };
+  return plate.solve(forces, held(load, clamped_at));
+}
+
+Eigen::VectorXd PlateSheet::correction(const BendingLoad &load, const meshes::CellEdges &edges,
+                                       const Eigen::VectorXd &deflection) const
+{
+  const Eigen::Matrix3d &D = plate.bending_stiffness_of_material.front();
+  Eigen::Matrix3d inverse_exchange; // P^-1
+  inverse_exchange << 0., 1., 0., 1., 0., 0., 0., 0., -2.;
+  const Eigen::Matrix3d to_strain = inverse_exchange * D; // E = P^-1 D^H kappa
+  const auto strain_at            = [&](const int triangle, const Eigen::Vector3d &barycentric)
+  { return (to_strain * plate.values(triangle, barycentric, deflection).tail<3>()).eval(); };
+
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(plate.n_dofs());
+  for (const EdgeSide &one : edge_sides)
+    for (const auto &[part, weight] : gauss)
+    {
+      if (load.is_clamped[at(one.edge)])
+        continue;
+      const Eigen::Vector3d point = on_side(one.rim, part);
+      const Eigen::Vector2d slip =
+        edges.sides[at(one.edge)].slip * strain_at(one.rim.triangle, point);
+      const ThinPlate::Shapes shapes = plate.shapes(one.rim.triangle, point);
+      const auto dofs                = plate.dofs_of(one.rim.triangle);
+      for (int k = 0; k < 12; ++k)
+      {
+        const Eigen::Vector3d kappa = shapes.block<3, 1>(3, k);
+        const Eigen::Vector2d turn(0.5 * kappa(2) * one.along(0) + kappa(1) * one.along(1),
+                                   -kappa(0) * one.along(0) - 0.5 * kappa(2) * one.along(1));
+        forces(dofs[at(k)]) += weight * one.length * slip.dot(turn);
+      }
+    }
+  // M_abc d_b E_a, with the gradient of what is linear between the middles of the three pieces.
+  std::vector<Eigen::MatrixXd> moments;
+  const auto bulk_at = [&](const int t)
+  {
+    const auto &corners = plate.mesh.triangles[at(t)].corners;
+    Eigen::Matrix2d legs;
+    legs << corners[1] - corners[0], corners[2] - corners[0];
+    Eigen::Matrix<double, 3, 2> of_corners; // gradients of the barycentric coordinates
+    of_corners.bottomRows<2>()           = legs.inverse();
+    of_corners.row(0)                    = -of_corners.row(1) - of_corners.row(2);
+    Eigen::Matrix<double, 3, 2> gradient = Eigen::Matrix<double, 3, 2>::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      Eigen::Vector3d middle = Eigen::Vector3d::Constant(4. / 9.);
+      middle(k)              = 1. / 9.;
+      gradient -= 3. * strain_at(t, middle) * of_corners.row(k);
+    }
+    return Eigen::Vector3d(edges.bulk[0].transpose() * gradient.col(0) +
+                           edges.bulk[1].transpose() * gradient.col(1));
+  };
+  for (int t = 0; t < static_cast<int>(plate.mesh.triangles.size()); ++t)
+    moments.push_back(to_strain.transpose() * bulk_at(t));
+  forces += plate.of_moments(moments);
+  const auto clamped_at = [&](const EdgeSide &one, const double part) -> Clamped
+  {
+    const double slope =
+      edges.sides[at(one.edge)].tension.dot(strain_at(one.rim.triangle, on_side(one.rim, part)));
+    return {0., slope * one.inwards};
+  };
+  return plate.solve(forces, held(load, clamped_at));
+}
+
+double PlateSheet::mean_curvature(const Eigen::VectorXd &deflection) const
+{
+  double sum = 0., area = 0.;
+  for (int t = 0; t < static_cast<int>(plate.mesh.triangles.size()); ++t)
+  {
+    const auto &corners = plate.mesh.triangles[at(t)].corners;
+    Eigen::Matrix2d legs;
+    legs << corners[1] - corners[0], corners[2] - corners[0];
+    for (int k = 0; k < 3; ++k)
+    {
+      Eigen::Vector3d middle      = Eigen::Vector3d::Constant(4. / 9.);
+      middle(k)                   = 1. / 9.;
+      const Eigen::Vector3d kappa = plate.values(t, middle, deflection).tail<3>();
+      sum += legs.determinant() / 3. *
+             (kappa(0) * kappa(0) + kappa(1) * kappa(1) + 0.5 * kappa(2) * kappa(2));
+      area += legs.determinant() / 3.;
+    }
+  }
+  return std::sqrt(sum / area);
+}
+} // namespace homespun::verification
