@@ -161,24 +161,11 @@ Eigen::MatrixXd ThinPlate::of_moments(const std::vector<Eigen::MatrixXd> &moment
   return loads;
 }
 
-Eigen::MatrixXd ThinPlate::solve(const Eigen::MatrixXd &loads,
-                                 const std::vector<HeldDof> &held) const
+/// The stiffness of the unknowns, lower triangle; what is held goes to the right.
+Eigen::SparseMatrix<double> ThinPlate::reduced(const std::vector<int> &unknown, const int n,
+                                               const Eigen::MatrixXd &held,
+                                               Eigen::MatrixXd &right) const
 {
-  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(n_dofs(), loads.cols());
-  std::vector<int> unknown(at(n_dofs()), 0);
-  for (const HeldDof &one : held)
-  {
-    unknown[at(one.dof)] = -1;
-    solution.row(one.dof).setConstant(one.value);
-  }
-  int n = 0;
-  for (int &number : unknown)
-    if (number >= 0)
-      number = n++;
-  Eigen::MatrixXd right(n, loads.cols());
-  for (int d = 0; d < n_dofs(); ++d)
-    if (unknown[at(d)] >= 0)
-      right.row(unknown[at(d)]) = loads.row(d);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(78 * mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
@@ -198,14 +185,36 @@ Eigen::MatrixXd ThinPlate::solve(const Eigen::MatrixXd &loads,
         if (row < 0)
           continue;
         if (column < 0)
-          right.row(row) -= stiffness(i, j) * solution.row(dofs[at(j)]);
+          right.row(row) -= stiffness(i, j) * held.row(dofs[at(j)]);
         else if (row >= column)
           entries.emplace_back(row, column, stiffness(i, j));
       }
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::MatrixXd found = refined_solution(matrix, right, "plate").values;
+  return matrix;
+}
+
+Eigen::MatrixXd ThinPlate::solve(const Eigen::MatrixXd &loads,
+                                 const std::vector<HeldDof> &held) const
+{
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(n_dofs(), loads.cols());
+  std::vector<int> unknown(at(n_dofs()), 0);
+  for (const HeldDof &one : held)
+  {
+    unknown[at(one.dof)] = -1;
+    solution.row(one.dof).setConstant(one.value);
+  }
+  int n = 0;
+  for (int &number : unknown)
+    if (number >= 0)
+      number = n++;
+  Eigen::MatrixXd right(n, loads.cols());
+  for (int d = 0; d < n_dofs(); ++d)
+    if (unknown[at(d)] >= 0)
+      right.row(unknown[at(d)]) = loads.row(d);
+  const Eigen::SparseMatrix<double> matrix = reduced(unknown, n, solution, right);
+  const Eigen::MatrixXd found              = refined_solution(matrix, right, "plate").values;
   for (int d = 0; d < n_dofs(); ++d)
     if (unknown[at(d)] >= 0)
       solution.row(d) = found.row(unknown[at(d)]);

@@ -21,7 +21,7 @@ namespace homespun::homogenization
 struct HeldDof
 {
   int dof;
-  double value;
+  double value; ///< [m], of derivatives [-]
 };
 
 /// A plate and its degrees of freedom: w, w,1, w,2 at each vertex, 3 v + 0, 1, 2; then the
@@ -62,6 +62,8 @@ public:
 
 private:
   CloughTocher element(int triangle) const;
+  Eigen::SparseMatrix<double> reduced(const std::vector<int> &unknown, int n,
+                                      const Eigen::MatrixXd &held, Eigen::MatrixXd &right) const;
   /// kappa of the shapes at the points where products of two of them are integrated, weight area/9.
   Eigen::Matrix<double, 27, 12> curvatures(int triangle) const;
 };

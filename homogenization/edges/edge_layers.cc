@@ -262,11 +262,12 @@ void require_decay(const UnitCell &cell, const EdgeOptions &options, const int a
   if (n_cells <= options.most_cells)
     return;
   std::ostringstream text;
-  text << cell.file << ": along axis " << axis + 1
-       << " what an edge does shrinks from cell to cell by a factor of " << factor << ", and would "
-       << "need " << n_cells << " cells; expected at most " << options.most_cells
-       << ": its stiff parts reach too far; take a larger piece of the pattern as the cell, or "
-          "less contrast";
+  text
+    << cell.file << ": along axis " << axis + 1
+    << " what an edge does shrinks from cell to cell by a factor of " << factor << ", and would "
+    << "need " << n_cells << " cells; expected at most " << options.most_cells
+    << ": parts of such contrast reach too far; take a larger piece of the pattern as the cell, or "
+       "less contrast";
   throw meshes::BadInput(text.str());
 }
 } // namespace

@@ -91,6 +91,9 @@ meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options);
 ///   and for all v that are clamped there, with s along free edges, the sheet on the left,
 ///   integral kappa(v).D^H.kappa(w1) = integral M_abc d_b E_a (P^-1 D^H kappa(v))_c
 ///                                     + sum over free edges integral (d_a E_a).d/ds(v,2, -v,1) ds
+/// Units: E_a [N], slip d_a [m], tension T_a and M_abc [1/N].
+/// They are those of displacements, D^H of a plate of deflections: on a mesh where the two sides of
+/// D^H are a part apart, the terms of edges are off by as much.
 /// The derivation is the membrane's: w is Airy's function of the analogous membrane, whose line
 /// tension is a kink of w, and whose displacements are the potential of the moments.
 /// @throws BadInput as above, and where the cell has holes, which are rigid in the analogous

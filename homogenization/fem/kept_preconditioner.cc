@@ -3,21 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace homespun::homogenization
 {
 namespace
 {
-/// A factor serves until it takes more iterations than this: those of a new one, one or two, and
-/// what a factorization costs, which is some dozen of them.
+/// A factor serves until it takes more iterations than this.
 constexpr unsigned int most_iterations_of_factor = 12;
-/// An old one is given up after so many: in vain they cost about as much as a factorization.
+/// An old one is given up after so many: they cost about what a factorization does.
 constexpr unsigned int most_iterations_of_old_factor = 3 * most_iterations_of_factor;
 } // namespace
 
 void KeptPreconditioner::build(ElasticSolver &solver)
 {
-  is_old = false;
+  is_old   = false;
+  is_fresh = true;
   // On several ranks a hierarchy is kept, which tells directions of negative curvature.
   is_factor = solver.is_small() && solver.n_ranks() == 1;
   if (is_factor)
@@ -36,9 +37,9 @@ unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vec
                                        const ElasticSolver::Vector &forces, const double target,
                                        const unsigned int most_iterations)
 {
-  bool is_new = is_old || !solver.has_preconditioner();
-  if (is_new)
+  if (is_old || !solver.has_preconditioner())
     build(solver);
+  const bool is_new = std::exchange(is_fresh, false);
   // Should this solve fail, the next one has a preconditioner of its own.
   is_old            = true;
   increment         = 0.;
@@ -56,19 +57,12 @@ unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vec
   }
   catch (const meshes::NotConverged &)
   {
-    if (is_factor && is_new)
-      throw;
+    if (is_factor && !is_new)
+      return solve(solver, increment, forces, target, most_iterations);
     if (is_factor)
-    {
-      build(solver);
-      is_old = true;
-    }
-    else
-    {
-      solver.factorize();
-      is_factor = true;
-    }
-    is_new    = true;
+      throw;
+    solver.factorize();
+    is_factor = true;
     increment = 0.;
     used      = solver.solve(increment, forces, {target}, most_iterations);
   }

@@ -20,12 +20,13 @@ public:
                      const ElasticSolver::Vector &forces, double target,
                      unsigned int most_iterations);
 
-  /// Makes one of the present matrix; of a matrix that is not positive definite a hierarchy, with
-  /// which conjugate gradients tell the direction.
+  /// Makes one of the present matrix, which the next solve uses whatever it takes; of a matrix that
+  /// is not positive definite a hierarchy, with which conjugate gradients tell the direction.
   void build(ElasticSolver &solver);
 
 private:
   bool is_old = false, is_factor = false;
+  bool is_fresh                        = false; ///< no solve has used it
   double iterations_per_digit_when_new = 0.;
 };
 } // namespace homespun::homogenization

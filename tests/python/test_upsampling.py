@@ -109,7 +109,8 @@ class Upsampling(WithCell):
         for call in (lambda: homespun.Sheet(self.cell, 150, 150),
                      lambda: homespun.Upsampler(self.cell, sheet), in_plane,
                      lambda: homespun.read_positions(file)):
-            self.assertGreater(turns_of_others(call), 3)
+            # On processors that do other work, too, a call may end before the others come to run.
+            self.assertTrue(any(turns_of_others(call) > 3 for _ in range(20)))
 
     def test_sheets_may_be_made_in_many_threads(self):
         # pybind11 has a list of all objects, which is changed with the interpreter held.

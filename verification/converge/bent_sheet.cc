@@ -65,6 +65,33 @@ BendingError error_of(const Surface &surface, const Surface &reference, const do
 }
 } // namespace
 
+namespace
+{
+/// The errors of the homogenized plate on a mesh of n_quads x n_quads quads.
+std::array<BendingError, bending_methods.size()>
+errors_on(const BendingCell &cell, const BendingLoad &load, const meshes::Sheet &sheet,
+          const int n_quads, const Surface &reference)
+{
+  const PlateSheet coarse(
+    sheet, meshes::coarse_sheet(sheet.origin, sheet.sides() / n_quads, n_quads, n_quads),
+    {cell.solved.stiffness});
+  // A pressure acts on the material, not on holes.
+  const double covered     = meshes::signed_areas(cell.cell.mesh).sum() / cell.cell.lattice.area();
+  const Eigen::VectorXd w0 = coarse.deflection(load, covered);
+  const double curvature = coarse.mean_curvature(w0), side = std::sqrt(cell.cell.lattice.area());
+  std::vector<Eigen::VectorXd> deflections = {w0};
+  if (cell.known.edges)
+    deflections.push_back(w0 + coarse.correction(load, *cell.known.edges, w0));
+  std::array<BendingError, bending_methods.size()> errors = {};
+  for (std::size_t k = 0; k < deflections.size(); ++k)
+    for (const bool with_fluctuation : {false, true})
+      errors[2 * k + (with_fluctuation ? 1 : 0)] =
+        error_of(upsampled(cell, sheet, coarse.plate, deflections[k], with_fluctuation), reference,
+                 curvature, side);
+  return errors;
+}
+} // namespace
+
 BendingCell::BendingCell(const homogenization::UnitCell &cell)
     : cell(cell)
     , bending_stiffness_of_phase(cell.bending_stiffness_of_phase())
@@ -72,6 +99,11 @@ BendingCell::BendingCell(const homogenization::UnitCell &cell)
     , solved(homogenization::solve_plate_cell(torus, bending_stiffness_of_phase))
     , known(known_edges_of_plate(cell))
 {
+}
+
+bool BendingCell::is_of_one_material() const
+{
+  return solved.slope.cwiseAbs().maxCoeff() < 1e-9 * std::sqrt(cell.lattice.area());
 }
 
 BentSheetErrors bending_errors(const BendingCell &cell, const BendingLoad &load, const int n,
@@ -84,27 +116,16 @@ BentSheetErrors bending_errors(const BendingCell &cell, const BendingLoad &load,
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
     reference.row(v) = resolved.segment<3>(3 * v).transpose();
 
-  const int n_quads = n * quads_per_cell;
-  meshes::TriangleMesh mesh =
-    meshes::coarse_sheet(sheet.origin, sheet.sides() / n_quads, n_quads, n_quads);
-  mesh.material.setZero(mesh.n_triangles());
-  const PlateSheet coarse(sheet, mesh, {cell.solved.stiffness});
-  // A pressure acts on the material, not on holes.
-  const double covered     = meshes::signed_areas(cell.cell.mesh).sum() / cell.cell.lattice.area();
-  const Eigen::VectorXd w0 = coarse.deflection(load, covered);
-
   BentSheetErrors errors;
-  errors.n_dofs                            = static_cast<unsigned long>(fine.plate.n_dofs());
-  errors.curvature                         = coarse.mean_curvature(w0);
-  const double side                        = std::sqrt(cell.cell.lattice.area());
-  std::vector<Eigen::VectorXd> deflections = {w0};
-  if (cell.known.edges)
-    deflections.push_back(w0 + coarse.correction(load, *cell.known.edges, w0));
-  for (std::size_t k = 0; k < deflections.size(); ++k)
-    for (const bool with_fluctuation : {false, true})
-      errors.of_method[2 * k + (with_fluctuation ? 1 : 0)] =
-        error_of(upsampled(cell, sheet, coarse.plate, deflections[k], with_fluctuation), reference,
-                 errors.curvature, side);
+  errors.n_dofs = static_cast<unsigned long>(fine.plate.n_dofs());
+  double before = 0.;
+  for (const int n_quads : {n * quads_per_cell / 2, n * quads_per_cell})
+  {
+    errors.of_method     = errors_on(cell, load, sheet, n_quads, reference);
+    const double now     = errors.of_method[cell.known.edges ? 3 : 1].position;
+    errors.of_macro_mesh = std::abs(now - before);
+    before               = now;
+  }
   return errors;
 }
 } // namespace homespun::verification

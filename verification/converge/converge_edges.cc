@@ -32,7 +32,8 @@ double corner_exponent(const meshes::Lattice &lattice, const Eigen::Matrix3d &st
     corner.clamped =
       width > 0. ? homogenization::ClampedRay::first : homogenization::ClampedRay::last;
     corner.sectors = {{std::min(a, a + width), std::max(a, a + width), stiffness}};
-    least          = std::min(least, homogenization::exponents_of(corner).front());
+    for (const double exponent : homogenization::exponents_of(corner)) // none may lie below 2
+      least = std::min(least, exponent);
   }
   return least;
 }

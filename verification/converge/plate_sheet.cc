@@ -2,7 +2,7 @@
 #include "verification/converge/plate_sheet.h"
 
 #include "homogenization/bracket/bending_bracket.h"
-#include "meshes/plain/errors.h"
+#include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/LU>
@@ -21,9 +21,15 @@ using meshes::at;
 
 namespace
 {
-/// Points and weights of Gauss on 0 to 1, exact to degree 5.
-constexpr std::array<std::array<double, 2>, 3> gauss = {
-  {{0.1127016653792583, 5. / 18.}, {0.5, 4. / 9.}, {0.8872983346207417, 5. / 18.}}};
+/// Points and weights on 0 to 1, exact to degree 5.
+std::array<std::array<double, 2>, 3> points_on_a_side()
+{
+  const meshes::GaussRule rule = meshes::gauss_rule(3);
+  std::array<std::array<double, 2>, 3> points;
+  for (int q = 0; q < 3; ++q)
+    points[at(q)] = {0.5 * (1. + rule.points(q)), 0.5 * rule.weights(q)};
+  return points;
+}
 
 /// The edge of the sheet that a point lies on, −1 inside.
 int edge_at(const Eigen::RowVector2d &fraction)
@@ -99,11 +105,12 @@ std::vector<HeldDof> PlateSheet::held(const BendingLoad &load, ClampedAt &&clamp
 
 Eigen::VectorXd PlateSheet::deflection(const BendingLoad &load, const double pressure) const
 {
-  Eigen::VectorXd forces = load.is_pressed ? Eigen::VectorXd(pressure * plate.pressure())
-                                           : Eigen::VectorXd::Zero(plate.n_dofs()).eval();
+  Eigen::VectorXd forces = load.by == BentBy::pressure
+                             ? Eigen::VectorXd(pressure * plate.pressure())
+                             : Eigen::VectorXd::Zero(plate.n_dofs()).eval();
   for (const EdgeSide &one : edge_sides)
-    if (load.is_rolled && one.edge == 1) // the moment works on the slope outwards
-      for (const auto &[part, weight] : gauss)
+    if (load.by == BentBy::moment && one.edge == 1) // the moment works on the slope outwards
+      for (const auto &[part, weight] : points_on_a_side())
       {
         const ThinPlate::Shapes shapes = plate.shapes(one.rim.triangle, on_side(one.rim, part));
         const auto dofs                = plate.dofs_of(one.rim.triangle);
@@ -112,7 +119,7 @@ Eigen::VectorXd PlateSheet::deflection(const BendingLoad &load, const double pre
       }
   const auto clamped_at = [&](const EdgeSide &one, const double part) -> Clamped
   {
-    if (!load.is_twisted || one.edge != 1)
+    if (load.by != BentBy::turn || one.edge != 1)
       return {0., Eigen::Vector2d::Zero()};
     const auto &corners        = plate.mesh.triangles[at(one.rim.triangle)].corners;
     const Eigen::Vector2d to   = corners[at((one.rim.side + 1) % 3)],
@@ -136,7 +143,7 @@ Eigen::VectorXd PlateSheet::correction(const BendingLoad &load, const meshes::Ce
 
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(plate.n_dofs());
   for (const EdgeSide &one : edge_sides)
-    for (const auto &[part, weight] : gauss)
+    for (const auto &[part, weight] : points_on_a_side())
     {
       if (load.is_clamped[at(one.edge)])
         continue;

@@ -15,22 +15,27 @@
 
 namespace homespun::verification
 {
+enum class BentBy
+{
+  pressure, ///< the same everywhere on the material, as the weight of phases that weigh the same
+  moment,   ///< a line moment along the edge 1
+  turn      ///< of the edge 1, clamped, about its normal in the plane through its middle
+};
+
 /// How a sheet is held and what bends it; edges that are not clamped are free.
 struct BendingLoad
 {
   const char *name;
   std::array<bool, meshes::CellEdges::n_sides> is_clamped; ///< in the order of meshes::CellEdges
-  bool is_pressed = false; ///< by a pressure, of which its own weight is one
-  bool is_twisted = false; ///< the edge 1 turned about the axis between the clamps
-  bool is_rolled  = false; ///< by a line moment along the edge 1
+  BentBy by;
 };
 
 inline constexpr std::array<BendingLoad, 5> bending_loads = {{
-  {"roll", {true, false, false, false}, false, false, true},
-  {"cantilever-1", {true, false, false, false}, true},
-  {"cantilever-2", {false, false, true, false}, true},
-  {"twist", {true, true, false, false}, false, true},
-  {"pressure", {true, true, true, true}, true},
+  {"roll", {true, false, false, false}, BentBy::moment},
+  {"cantilever-1", {true, false, false, false}, BentBy::pressure},
+  {"cantilever-2", {false, false, true, false}, BentBy::pressure},
+  {"twist", {true, true, false, false}, BentBy::turn},
+  {"pressure", {true, true, true, true}, BentBy::pressure},
 }};
 
 /// A mesh of a sheet as a plate, with its edges.
@@ -52,7 +57,7 @@ public:
   Eigen::VectorXd correction(const BendingLoad &load, const meshes::CellEdges &edges,
                              const Eigen::VectorXd &deflection) const;
 
-  /// sqrt(mean of kappa11² + kappa22² + 2 kappa12²) [1/m].
+  /// sqrt(mean of kappa11² + kappa22² + 2 kappa12²) [1/m], of three points of each triangle.
   double mean_curvature(const Eigen::VectorXd &deflection) const;
 
   const homogenization::ThinPlate plate;

@@ -32,7 +32,7 @@ public:
     }
     catch (const meshes::NotConverged &)
     {
-      // Negative curvature, or a preconditioner that was too old. The exact tangent is not tried
+      // Negative curvature. The exact tangent is not tried
       // again before the state has moved far.
       if (tangent == Tangent::exact)
         exact_below = 0.1 * residual;

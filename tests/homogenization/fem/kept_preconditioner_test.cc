@@ -120,6 +120,20 @@ TEST(bound_kept_preconditioner, a_factor_of_a_distant_matrix_is_given_up)
   EXPECT_LE(held.residual_of(answer), 1.1e-10);
 }
 
+// Of the projected tangent of a state, for the exact one of the same: it is used whatever it takes.
+TEST(exact_kept_preconditioner, one_that_was_asked_for_is_not_given_up)
+{
+  Held held;
+  KeptPreconditioner kept;
+  ElasticSolver::Vector answer = held.solver->owned_vector();
+  const double target          = 1e-10 * held.forces().l2_norm();
+  held.assemble(0.);
+  kept.build(*held.solver);
+  held.assemble(0., [](const unsigned int triangle) { return std::pow(10., triangle % 7); });
+  EXPECT_GT(kept.solve(*held.solver, answer, held.forces(), target, 1000), 36u);
+  EXPECT_LE(held.residual_of(answer), 1.1e-10);
+}
+
 // With the factor of a definite matrix conjugate gradients tell the direction. One of its own has
 // none, and a hierarchy may not be definite either; the next call begins anew.
 TEST(exact_kept_preconditioner, an_indefinite_matrix_is_not_solved)

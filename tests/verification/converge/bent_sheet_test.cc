@@ -92,7 +92,7 @@ TEST(exact_bent_sheet, of_one_material_is_the_homogenized_plate)
   const BendingCell cell(unit);
   for (const BendingLoad &load : bending_loads)
   {
-    // On the mesh of the reference itself but for its diagonals: what the corners leave of both.
+    // On the mesh of the reference itself.
     const auto errors = bending_errors(cell, load, 4, 6).of_method;
     for (const BendingError &error : errors)
       EXPECT_LT(error.position, 1e-9) << load.name;

@@ -164,6 +164,7 @@ class Converge(InFolder):
                         0.2 * errors["affine+edges: mean error of the normal"][-1])
         claims = json.loads((self.folder / "out" / "verdicts.json").read_text())["verdicts"]
         self.assertEqual(len([one for one in claims if one["id"] == "closer-when-bent"]), 10)
+        self.assertEqual([one for one in claims if one["verdict"] == "FAIL"], [])
 
     def test_of_a_cell_with_holes_the_terms_of_edges_are_missing_and_that_is_said(self):
         cell = broken_cells_test.Cell()
