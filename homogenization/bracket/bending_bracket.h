@@ -3,8 +3,8 @@
 // plate, the period much longer than the thickness), by the analogy of plates and membranes: with
 //   P = [0 1 0; 1 0 0; 0 0 −1/2]
 // the moments of a plate in equilibrium are M = P eps(psi) of periodic displacements psi, and the
-// curvatures of a deflection w are P^-1 sigma of the stresses with Airy's function w. The sheet whose
-// membrane stiffness is ct = P D^-1 P hence has
+// curvatures of a deflection w are P^-1 sigma of the stresses with Airy's function w. The sheet
+// whose membrane stiffness is ct = P D^-1 P hence has
 //   D^H = P (Ct^H)^-1 P,   D_lower = P Ct_upper^-1 P,   D_upper = P Ct_lower^-1 P,
 // so that the bracket of a membrane brackets a plate, lower and upper exchanged. An isotropic phase
 // becomes one of Poisson's ratio −nu and membrane modulus 12 (1 − nu^2)/(E t^3); a hole, which
