@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a periodic cloth does at its edges, against closed forms, symmetries and the rate at which
 // it decays.
-#include "homogenization/edges/edge_layers.h"
 #include "homogenization/bracket/plate.h"
+#include "homogenization/edges/edge_layers.h"
 #include "meshes/plain/errors.h"
 #include "tests/homogenization/cell/cells.h"
 
