@@ -40,6 +40,26 @@ double area_of(const std::array<Eigen::Vector2d, 3> &shape)
   return 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
 }
 
+/// They are linear in each piece: from its corners to the middles of its sides.
+std::array<Eigen::Matrix<double, 3, 12>, n_field_points>
+second_derivatives_at_field_points(const CloughTocher &element)
+{
+  std::array<Eigen::Matrix<double, 3, 12>, n_field_points> second;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    const auto at_corners = element.second_derivatives_at_corners(piece);
+    for (int m = 0; m < 3; ++m)
+    {
+      const int q                  = 3 * piece + m;
+      const Eigen::Vector3d &point = field_points()[at(q)].in_piece;
+      second[at(q)]                = point(0) * at_corners[0];
+      second[at(q)] += point(1) * at_corners[1];
+      second[at(q)] += point(2) * at_corners[2];
+    }
+  }
+  return second;
+}
+
 Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const int piece,
                                             const Eigen::Vector3d &barycentric)
 {
@@ -94,23 +114,13 @@ CloughTocher EquilibratedStress::element(const int t) const
 
 EquilibratedStress::StressRows EquilibratedStress::stress_rows(const int t) const
 {
-  const CloughTocher its = element(t);
+  const auto second = second_derivatives_at_field_points(element(t));
   StressRows rows;
-  // Linear in each piece, and asked for in the middles of its sides.
-  for (int piece = 0; piece < 3; ++piece)
+  for (int q = 0; q < n_field_points; ++q)
   {
-    const auto at_corners = its.second_derivatives_at_corners(piece);
-    for (int m = 0; m < 3; ++m)
-    {
-      const int q                         = 3 * piece + m;
-      const Eigen::Vector3d &point        = field_points()[at(q)].in_piece;
-      Eigen::Matrix<double, 3, 12> second = point(0) * at_corners[0];
-      second += point(1) * at_corners[1];
-      second += point(2) * at_corners[2];
-      rows.row(3 * q)     = second.row(1);
-      rows.row(3 * q + 1) = second.row(0);
-      rows.row(3 * q + 2) = -second.row(2);
-    }
+    rows.row(3 * q)     = second[at(q)].row(1);
+    rows.row(3 * q + 1) = second[at(q)].row(0);
+    rows.row(3 * q + 2) = -second[at(q)].row(2);
   }
   return rows;
 }

@@ -32,6 +32,10 @@ struct FieldPoint
 };
 const std::array<FieldPoint, n_field_points> &field_points();
 
+/// Second derivatives of the shape functions at the field points, rows 11, 22, 12 each.
+std::array<Eigen::Matrix<double, 3, 12>, n_field_points>
+second_derivatives_at_field_points(const CloughTocher &element);
+
 /// The stresses of the shape functions of an Airy function at a point of a piece, rows 11, 22, 12.
 Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, int piece,
                                             const Eigen::Vector3d &barycentric);

@@ -99,21 +99,10 @@ ThinPlate::Values ThinPlate::values(const int triangle, const Eigen::Vector3d &b
 
 Eigen::Matrix<double, 27, 12> ThinPlate::curvatures(const int triangle) const
 {
-  const CloughTocher its = element(triangle);
+  const auto second = second_derivatives_at_field_points(element(triangle));
   Eigen::Matrix<double, 27, 12> rows;
-  for (int piece = 0; piece < 3; ++piece)
-  {
-    const auto at_corners = its.second_derivatives_at_corners(piece);
-    for (int m = 0; m < 3; ++m)
-    {
-      const int q                         = 3 * piece + m;
-      const Eigen::Vector3d &point        = field_points()[at(q)].in_piece;
-      Eigen::Matrix<double, 3, 12> second = point(0) * at_corners[0];
-      second += point(1) * at_corners[1];
-      second += point(2) * at_corners[2];
-      rows.middleRows<3>(3 * q) = curvatures_of(second);
-    }
-  }
+  for (int q = 0; q < n_field_points; ++q)
+    rows.middleRows<3>(3 * q) = curvatures_of(second[at(q)]);
   return rows;
 }
 

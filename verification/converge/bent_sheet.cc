@@ -63,10 +63,7 @@ BendingError error_of(const Surface &surface, const Surface &reference, const do
   return {difference.col(0).cwiseAbs().mean() / (curvature * side * side),
           difference.rightCols<2>().rowwise().norm().mean() / (curvature * side)};
 }
-} // namespace
 
-namespace
-{
 /// The errors of the homogenized plate on a mesh of n_quads x n_quads quads.
 std::array<BendingError, bending_methods.size()>
 errors_on(const BendingCell &cell, const BendingLoad &load, const meshes::Sheet &sheet,

@@ -27,9 +27,7 @@ int quads_per_cell(const int n)
   return 2 * std::max(1, n_quads / (2 * n));
 }
 
-/// The orders that the deflection with all terms may show, in sheet sides: nearer to the order of
-/// theory than to the next whole ones. On sheets of 10 cells what is of the next order moves it by
-/// a third.
+/// The orders that the deflection with all terms may show, in sheet sides: 2, or that of corners.
 OrderLimit order_of(const BendingCell &bent, const BendingLoad &load)
 {
   double order = 2.;
@@ -40,7 +38,7 @@ OrderLimit order_of(const BendingCell &bent, const BendingLoad &load)
         order,
         2. * corner_exponent(bent.cell.lattice,
                              homogenization::analogous_membrane(bent.solved.stiffness), 1 - axis));
-  return {order - 0.5, 2.5};
+  return {order - 0.1, 2.1};
 }
 
 /// The errors of a method over the levels: of the deflection and of the normal.

@@ -11,7 +11,7 @@ from read.stored import read_csv
 AGAIN = "Run `homespun converge` again."
 KEYS = ("cell", "study", "case", "quantity", "order_p", "level")
 # Studies whose limits are bands, and the tolerance at both ends.
-BAND_TOLERANCES = {"mesh": 0.1, "scale": 0.15, "coarse": 0.1, "edges": 0.1, "bending": 0.5}
+BAND_TOLERANCES = {"mesh": 0.1, "scale": 0.15, "coarse": 0.1, "edges": 0.1, "bending": 0.1}
 STUDIES = ("mesh", "adaptive", "scale", "coarse", "edges", "bending", "strain", "time")
 
 
