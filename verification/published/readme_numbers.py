@@ -6,9 +6,9 @@ A number is marked by a comment just before it, which names table, row and colum
     <!-- published: errors.csv layered/strip-2 localized -->8.8
 
 A row is named by its first columns, joined by `/`. With `*` the name stands for several rows, and
-the column ends in `:min`, `:max`, `:median`, `:sum` or `:count`. `A/B` in place of a column is the
-ratio of two, `A>B:count` the number of rows where one is larger, `A=TEXT:count` of those where it
-is a text. Names with blanks stand in quotes.
+the column ends in `:min`, `:max`, `:median` (of the rows in which the law holds), `:sum` or
+`:count`. `A/B` in place of a column is the ratio of two, `A>B:count` the number of rows where one
+is larger, `A=TEXT:count` of those where it is a text. Names with blanks stand in quotes.
 Every number that has no mark is a fault, outside of code and of the kinds that are no results
 (ALLOWED).
 """
@@ -96,6 +96,11 @@ def value_of(row, column):
     return float(parts[0]) / (float(parts[1]) if len(parts) > 1 else 1.0)
 
 
+def is_lost(row):
+    """Whether the law has lost ellipticity at the strain of a row."""
+    return bool(row.get("law_lost_at")) and float(row["strain"]) >= float(row["law_lost_at"])
+
+
 class Checker:
     """Faults of one text."""
 
@@ -146,6 +151,8 @@ class Checker:
                 ),
             )
         else:
+            if fold == "median":
+                rows = [row for row in rows if not is_lost(row)]
             values = [value for row in rows if (value := value_of(row, column)) is not None]
             value = FOLDS[fold](values) if fold else values[0] if values else math.nan
             if not is_printed_as(value, text):

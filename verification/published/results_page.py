@@ -14,7 +14,7 @@ from statistics import median
 from make import names_of, variants
 from numbers_of_page import LETTERS, UNBROKEN, table, three, with_bar
 from peers_section import section
-from readme_numbers import read_tables
+from readme_numbers import is_lost, read_tables
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 NOTICE = "<!-- Generated: `cmake --build --preset release --target docs` writes this page. -->\n"
@@ -84,10 +84,6 @@ LOSSES = (  # sentence, method, what it is compared with, the claim on it
 
 def percent(text):
     return f"{100.0 * float(text):.3g} %"
-
-
-def is_lost(row):
-    return bool(row["law_lost_at"]) and float(row["strain"]) >= float(row["law_lost_at"])
 
 
 def decided(row):
