@@ -27,18 +27,25 @@ int quads_per_cell(const int n)
   return 2 * std::max(1, n_quads / (2 * n));
 }
 
-/// The orders that the deflection with all terms may show, in sheet sides: 2, or that of corners.
-OrderLimit order_of(const BendingCell &bent, const BendingLoad &load)
+/// Judges the order of the deflection with all terms: 2 in sheet sides, or that of corners.
+OrderJudgement judge_deflection(const BendingCell &bent, const BendingLoad &load,
+                                const Series &series, const double floor)
 {
-  double order = 2.;
+  const std::vector<double> h = series.sizes();
+  // The next power of the expansion is 3, and shows where the second has a small coefficient.
+  OrderLimit limit = {2., 2.1}, together = {2., 3.1};
   // In the analogous membrane free edges are clamped, and clamped ones free.
   for (int axis = 0; axis < 2; ++axis)
     if (load.is_clamped[at(2 * axis)] && !load.is_clamped[at(2 - 2 * axis)])
-      order = std::min(
-        order,
-        2. * corner_exponent(bent.cell.lattice,
-                             homogenization::analogous_membrane(bent.solved.stiffness), 1 - axis));
-  return {order - 0.1, 2.1};
+    {
+      const double exponent = corner_exponent(
+        bent.cell.lattice, homogenization::analogous_membrane(bent.solved.stiffness), 1 - axis);
+      limit.lowest    = std::min(limit.lowest, 2. * exponent);
+      together.lowest = std::min(together.lowest, order_beside_a_corner(exponent, h.back()));
+    }
+  limit.lowest -= 0.1;
+  together.lowest -= 0.1;
+  return judge_errors(h, series.errors(), limit, floor, together);
 }
 
 /// The errors of a method over the levels: of the deflection and of the normal.
@@ -92,8 +99,7 @@ ConvergenceResult bend(const BendingCell &bent, const BendingLoad &load, const s
   else if (bent.known.edges)
   {
     MethodSeries &full      = methods.back();
-    full.position.judgement = judge_errors(full.position.sizes(), full.position.errors(),
-                                           order_of(bent, load), 3. * unresolved);
+    full.position.judgement = judge_deflection(bent, load, full.position, 3. * unresolved);
     const auto closer       = [&](const char *what, const Series &with, const Series &without)
     {
       const double ratio = *with.levels.back().error / *without.levels.back().error;

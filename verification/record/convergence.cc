@@ -147,8 +147,15 @@ std::string text_of(const OrderLimit &limit)
                      : number(limit.lowest) + " to " + number(limit.highest);
 }
 
+double order_beside_a_corner(const double exponent, const double h)
+{
+  const double difference = 2. * exponent - 2., cells = -std::log(h);
+  return 2. - (difference == 0. ? 1. / cells : difference / std::expm1(difference * cells));
+}
+
 OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<double> &errors,
-                            const OrderLimit &limit, const double floor)
+                            const OrderLimit &limit, const double floor,
+                            const std::optional<OrderLimit> &together)
 {
   const auto finished = [&](OrderJudgement result)
   {
@@ -199,6 +206,14 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
                  "; an order needs " + std::to_string(fewest_levels);
   else
     conclude(orders, limit, result);
+  // Only orders that were concluded lie in a range of positive ones.
+  if (result.outcome == Outcome::fail && together && together->contains(result.order))
+  {
+    result.outcome = Outcome::inconclusive;
+    result.why     = "not yet in the asymptotic range: several powers show together at " +
+                 number(together->lowest) + " to " + number(together->highest) +
+                 result.why.substr(result.why.rfind(": "));
+  }
   return finished(result);
 }
 

@@ -22,6 +22,7 @@
 #include "verification/record/verdict.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,13 +72,21 @@ struct OrderJudgement
 /// FAIL: an error that is not a number, levels that do not become finer, two levels with the same
 /// error (a refinement that did nothing), errors that grow at every level, a last order below the
 /// limit that does not rise, orders settled outside of the limit. INCONCLUSIVE: fewer than four
-/// levels above the floor, orders that move towards the limit, swing across it, or rise above it.
+/// levels above the floor, orders that move towards the limit, swing across it, or rise above it,
+/// orders outside of the limit that powers of h show together before the lowest one leads.
 /// @param h (n) sizes, falling
 /// @param errors (n) not negative
 /// @param floor what round-off and solvers leave in an error; from the first error below it the
 ///   levels are left out, because they show the floor and no order
+/// @param together what several powers may show
 OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<double> &errors,
-                            const OrderLimit &limit, double floor = 0.);
+                            const OrderLimit &limit, double floor = 0.,
+                            const std::optional<OrderLimit> &together = std::nullopt);
+
+/// The order at h, in sheet sides, of the h^2 and h^(2 lambda) that a corner with the exponent
+/// lambda leaves. Near lambda = 1 their coefficients are large and cancel, h^2 (h^s' − 1) / s' with
+/// s' = 2 lambda − 2, and they part slowly: 2 − s' / (h^−s' − 1).
+double order_beside_a_corner(double exponent, double h);
 
 /// Judges errors on levels that do not grow evenly, as adaptive meshes do, by the least-squares
 /// slopes of the last five levels (which is the order) and of the last three.

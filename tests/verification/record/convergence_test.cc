@@ -159,6 +159,39 @@ TEST(exact_convergence, orders_that_come_nearer_to_the_band_are_open_from_either
   EXPECT_EQ(outcome({2., 2.1, 2.4, 3.}), Outcome::inconclusive);
 }
 
+TEST(exact_convergence, powers_that_part_slowly_are_open_and_a_rest_of_lower_order_fails)
+{
+  const std::vector<double> h = {1. / 4, 1. / 6, 1. / 8, 1. / 12};
+  for (const double exponent : {0.9, 1., 1.06, 1.3})
+  {
+    const double s         = 2. * exponent - 2.;
+    const auto errors_with = [&](const double rest)
+    {
+      std::vector<double> errors;
+      for (const double one : h)
+        errors.push_back(
+          one * one *
+          ((s == 0. ? -std::log(one) : -std::expm1(s * std::log(one)) / s) + rest / one));
+      return errors;
+    };
+    const auto judged = [&](const double rest)
+    {
+      const double lowest = std::min(2., order_beside_a_corner(exponent, h.back())) - 0.1;
+      return judge_errors(h, errors_with(rest), about(2.), 0., OrderLimit{lowest, 3.1});
+    };
+    // The order at a point is the slope of the errors there.
+    const double step = 1e-4, at = h.back();
+    const auto error = [&](const double one)
+    { return one * one * (s == 0. ? -std::log(one) : -std::expm1(s * std::log(one)) / s); };
+    EXPECT_NEAR(order_beside_a_corner(exponent, at),
+                std::log(error(at * (1. + step)) / error(at * (1. - step))) /
+                  std::log((1. + step) / (1. - step)),
+                1e-6);
+    EXPECT_NE(judged(0.).outcome, Outcome::fail) << exponent << ": " << judged(0.).why;
+    EXPECT_EQ(judged(1.).outcome, Outcome::fail) << exponent << ": " << judged(1.).why;
+  }
+}
+
 TEST(exact_convergence, orders_that_swing_are_open_where_they_swing_across_the_band)
 {
   const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
