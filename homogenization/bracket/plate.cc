@@ -224,17 +224,10 @@ PlateCell solve_plate_cell(const TorusMesh &mesh,
     cell.stiffness += area_of(triangle) * D;
   }
   const Eigen::MatrixXd loads = plate.of_moments(moments);
-  const Eigen::MatrixXd phi   = plate.solve(loads, {{3 * mesh.anchor, 0.}});
+  cell.deflection             = plate.solve(loads, {{3 * mesh.anchor, 0.}});
   // The minimum is the energy without phi, less that of phi, which is ½ loads.phi.
-  cell.stiffness -= 0.5 * (loads.transpose() * phi + phi.transpose() * loads);
-  cell.stiffness /= mesh.lattice.area();
-  cell.deflection.resize(mesh.n_vertices, 3);
-  cell.slope.resize(2 * mesh.n_vertices, 3);
-  for (int v = 0; v < mesh.n_vertices; ++v)
-  {
-    cell.deflection.row(v)          = phi.row(3 * v);
-    cell.slope.middleRows<2>(2 * v) = phi.middleRows<2>(3 * v + 1);
-  }
+  const Eigen::Matrix3d gained = loads.transpose() * cell.deflection;
+  cell.stiffness = (cell.stiffness - 0.5 * (gained + gained.transpose())) / mesh.lattice.area();
   return cell;
 }
 } // namespace homespun::homogenization

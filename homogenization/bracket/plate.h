@@ -72,8 +72,7 @@ private:
 struct PlateCell
 {
   Eigen::Matrix3d stiffness;  ///< D^H [N m]
-  Eigen::MatrixXd deflection; ///< of the glued vertices under K11, K22, 2 K12 (n,3) [m^2]
-  Eigen::MatrixXd slope;      ///< its derivatives by x and y, rows 2 v and 2 v + 1 (2 n,3) [m]
+  Eigen::MatrixXd deflection; ///< phi under K11, K22, 2 K12 (n_dofs,3), as a ThinPlate has it
 };
 
 /// Solves the cell problem; rims of holes are free.

@@ -56,7 +56,8 @@ void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &opt
 void add_estimate(const homogenization::UnitCell &cell, unsigned long max_dofs,
                   MPI_Comm communicator, AssessedCell &assessed);
 
-/// Brackets the D^H of an assessed cell and adds the verdicts. To be called on one rank.
+/// Brackets the D^H of an assessed cell, rolls it up, and adds the verdicts. To be called on one
+/// rank.
 /// @param report is told of each step, one line
 void add_bending(const homogenization::UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed);

@@ -50,8 +50,7 @@ Surface upsampled(const BendingCell &cell, const meshes::Sheet &sheet, const Thi
       continue;
     const int of_cell           = cell.torus.vertex_of_original[at(sheet.cell_vertex(v))];
     const Eigen::Vector3d kappa = values.tail<3>();
-    surface(v, 0) += cell.solved.deflection.row(of_cell) * kappa;
-    surface.row(v).tail<2>() += (cell.solved.slope.middleRows<2>(2 * of_cell) * kappa).transpose();
+    surface.row(v) += (cell.solved.deflection.middleRows<3>(3 * of_cell) * kappa).transpose();
   }
   return surface;
 }
@@ -100,7 +99,9 @@ BendingCell::BendingCell(const homogenization::UnitCell &cell)
 
 bool BendingCell::is_of_one_material() const
 {
-  return solved.slope.cwiseAbs().maxCoeff() < 1e-9 * std::sqrt(cell.lattice.area());
+  // The slopes across the sides of the mesh.
+  return solved.deflection.bottomRows(torus.n_edges()).cwiseAbs().maxCoeff() <
+         1e-9 * std::sqrt(cell.lattice.area());
 }
 
 BentSheetErrors bending_errors(const BendingCell &cell, const BendingLoad &load, const int n,

@@ -132,7 +132,6 @@ TEST(tripwire_bent_sheet, a_term_of_the_wrong_sign_side_or_size_is_noticed)
   {
     BendingCell cell(unit);
     cell.solved.deflection *= factor;
-    cell.solved.slope *= factor;
     return bending_errors(cell, load_of("cantilever-2"), 6, 6).of_method[full].normal;
   };
   EXPECT_GT(normal(-1.), 5. * normal(1.)) << "sign of w3";

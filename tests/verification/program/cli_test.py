@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The program as a user meets it: help, results, and what it says to broken input."""
 import json
+import math
 import os
 import tempfile
 import unittest
@@ -160,6 +161,11 @@ class Homogenize(InFolder):
                          {phase + "." + name for phase in ("soft", "hard")
                           for name in ("E", "nu", "thickness")})
         self.assertIn("D^H [1e-6 N m]", result.stdout)
+        # At 45 deg phi K11 stretches stripes by Q / D = 1.10 % of (3 cm)^2, in closed form.
+        rolled = dict(zip(found["rolled"]["degrees_from_x"], found["rolled"]["least_radius_m"]))
+        self.assertAlmostEqual(0.5 * (rolled[44] + rolled[46]),
+                               0.03 * math.sqrt(0.01102 / 0.02), delta=1e-4)
+        self.assertIn(found["rolled"]["says"], result.stdout)
         self.assertIn("Inputs soft.E +- 200000 Pa", result.stdout)
         with h5py.File(self.folder / "cell.h5") as cell:
             self.assertAlmostEqual(cell["D"][1][1] / D22, 1, delta=1e-9)

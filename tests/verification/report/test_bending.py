@@ -11,6 +11,7 @@ import numpy
 
 import report_path  # noqa: F401
 from figures import fabrics
+from figures.bending import roll_figure
 from figures.stiffness import directional_modulus
 from made_up_run import list_again
 from made_up_study import write_results
@@ -32,6 +33,11 @@ class BendingTest(PageTest):
                     "of": "mesh",
                     "remark": "made up",
                     "entry_bars": numpy.maximum(0.01 * numpy.abs(D), 1e-18).tolist(),
+                },
+                rolled={
+                    "says": "D^H holds to 2 % where made up\nwarning: made up too",
+                    "degrees_from_x": [0, 45, 90, 135],
+                    "least_radius_m": [0.01, 0.02, 0.0, 0.02],
                 },
                 sensitivity=[
                     {
@@ -79,6 +85,18 @@ class BendingTest(PageTest):
         write_results(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
         self.assertEqual(self.page().count("bending stiffness of stripes, because"), 1)
+
+    def test_how_tightly_a_sheet_may_be_rolled_is_said_and_drawn(self):
+        rolled = {"degrees_from_x": [0, 45, 90, 135], "least_radius_m": [0.01, 0.02, 0.0, 0.02]}
+        line = roll_figure(rolled).axes[0].lines[0]
+        self.assertEqual(line.get_ydata().tolist(), [1.0, 2.0, 0.0, 2.0, 1.0, 2.0, 0.0, 2.0, 1.0])
+        self.assertAlmostEqual(line.get_xdata()[5], 1.25 * numpy.pi)
+        write_results(self.folder)
+        self.add_bending(BENDING)
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("Dᴴ holds to 2 % where made up.", self.page())
+        self.assertIn('"left-out">warning: made up too.', self.page())
+        self.assertIn("stripes-least-radius", self.page())
 
     def test_bending_far_from_cloth_is_warned_of(self):
         write_results(self.folder)

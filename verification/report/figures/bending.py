@@ -55,6 +55,24 @@ def bending_polar_figure(homogenize):
     return figure
 
 
+def roll_figure(rolled):
+    """The least radius of a roll along each direction, `rolled` of homogenize.json."""
+    angles = numpy.radians(rolled["degrees_from_x"])
+    radius = CM * numpy.array(rolled["least_radius_m"], dtype=float)
+    figure, axes = pyplot.subplots(
+        figsize=(5.2, 4.4), subplot_kw={"projection": "polar"}, layout="constrained"
+    )
+    axes.plot(
+        numpy.concatenate([angles, angles + numpy.pi, angles[:1]]),
+        numpy.concatenate([radius, radius, radius[:1]]),
+        color=style.BLUE,
+        lw=2.2,
+    )
+    polar_frame(axes, "least radius [cm]")
+    axes.set_rlim(0.0, 1.05 * float(radius.max()) or 1.0)
+    return figure
+
+
 def deflection_figure(cell):
     """w_11, w_22, w_12: how far the cell leaves the parabola of its macro curvature, per unit
     curvature, by colour.

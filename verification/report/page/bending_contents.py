@@ -3,7 +3,7 @@
 import numpy
 
 from figures import fabrics
-from figures.bending import bending_polar_figure, deflection_figure
+from figures.bending import bending_polar_figure, deflection_figure, roll_figure
 from figures.style import three
 from figures.vertex_tables import deflection_table
 from page.entries import ENTRIES, MICRO, entry_texts
@@ -14,7 +14,7 @@ SOFTEST, STIFFEST = 1e-7, 1e-3  # of cloth [N m]; outside a unit is wrong, or a 
 
 def bending_contents(cell, gallery):
     """Figures and tables; of a cell without D nothing but the reason."""
-    contents = {"bending": None, "bending_polar": None, "deflection": None, "worth": None}
+    contents = dict.fromkeys(("bending", "bending_polar", "rolled", "deflection", "worth"))
     contents["worth"] = worth_of_inputs(best_run(cell, "D") or cell.homogenize or {})
     known = best_run(cell, "D")
     if known is None:
@@ -27,6 +27,13 @@ def bending_contents(cell, gallery):
             f"{cell.name}-bending-stiffness",
             f"{cell.name}: bending stiffness of narrow strips cut along each direction. Grey: from"
             " the softest to the stiffest of ten measured fabrics (Wang et al. 2011).",
+        )
+    if (known.get("rolled") or {}).get("least_radius_m"):
+        contents["rolled"] = gallery.add(
+            roll_figure(known["rolled"]),
+            f"{cell.name}-least-radius",
+            f"{cell.name}: the radius from which on a sheet rolled along each direction is at most"
+            " 2 % stiffer than Dᴴ, guaranteed for the cell as it is meshed. Zero: at any radius.",
         )
     if cell.deflection is not None:
         contents["deflection"] = gallery.add(
@@ -78,6 +85,7 @@ def bending_table(cell, D):
         "of": bracket.get("of", "mesh"),
         "remark": bracket.get("remark"),
         "outside": " and ".join(outside),
+        "rolled": (value.get("rolled") or {}).get("says", "").replace("D^H", "Dᴴ").splitlines(),
     }
 
 

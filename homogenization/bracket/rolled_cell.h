@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// How far D^H holds: a cell that is rolled up. D^H lets each cell bend by ½ y.K.y beside a
+// periodic deflection phi; on a sheet with the curvature K that deflection also stretches the
+// sheet, by the strain of Föppl and von Kármán
+//   eps(u) + e,   e = ½ grad phi (x) grad phi − phi K,   u periodic, its mean strain free,
+// for K = n (x) n / R of a cylinder (other K have a Gauss curvature and are no periodic state). The
+// energy per area is ½ D_eff(R)(n) / R^2 with
+//   D^H_nn <= D_eff(R) <= min(D^H_nn + Q(n) / R^2, mean of D_nn over the cell):
+// stretching costs energy; phi of D^H with its best u is one competitor, phi = 0 another one. Both
+// are those of this mesh. The first is exact to order R^-4 where D^H itself is.
+// Sources: S. Neukamm and H. Olbermann, Calc. Var. 53 (2015); K. D. Cherdantsev and
+// M. I. Cherednichenko, Calc. Var. 54 (2015), on the limit of small R.
+#pragma once
+
+#include "homogenization/cell/torus_mesh.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// e of a deflection, 11, 22, 2 12.
+/// @param curvature K, 11, 22, 2 12 [1/m]
+/// @param deflection phi [m] @param gradient of it [-]
+Eigen::Vector3d strain_of_deflection(const Eigen::Vector3d &curvature, double deflection,
+                                     const Eigen::Vector2d &gradient);
+
+struct RolledCell
+{
+  /// Q(n) / D^H_nn for n = (cos angle, sin angle) [m^2].
+  double stretching(double angle) const;
+
+  /// Mean of D_nn over the cell, over D^H_nn: the bound of a sheet rolled as tightly as one likes.
+  double stiffest(double angle) const;
+
+  /// Upper bound on D_eff(R) / D^H_nn.
+  double most(double angle, double radius) const;
+
+  /// The radius from which on most() is at most 1 + tolerance [m]; 0 where it always is.
+  double least_radius(double angle, double tolerance) const;
+
+  Eigen::Matrix3d stiffness;      ///< D^H of the mesh [N m]
+  Eigen::Matrix3d mean_stiffness; ///< mean of D, holes counting as zero [N m]
+  /// Q for the products 11, 22, 33, 12, 13, 23 of the entries of K [N m^3].
+  Eigen::Matrix<double, 6, 6> membrane;
+};
+
+/// @param bending_stiffness_of_material D [N m]
+/// @param membrane_stiffness_of_material C [N/m]
+/// @throws NotConverged as solve_plate_cell()
+RolledCell rolled_cell(const TorusMesh &mesh,
+                       const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material,
+                       const std::vector<Eigen::Matrix3d> &membrane_stiffness_of_material);
+} // namespace homespun::homogenization

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// A rolled cell against the geometry of surfaces in space and against stripes, whose deflection is
+// a function of one coordinate that can be solved for at any radius.
+#include "homogenization/bracket/rolled_cell.h"
+#include "tests/homogenization/bracket/bending_cells.h"
+#include "tests/homogenization/cell/cells.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+using namespace homespun;
+using namespace homespun::homogenization;
+
+namespace
+{
+constexpr double nu = 0.3, side = 0.01, thickness = 5e-4; // of `layered`, E 1e6 and 1e7
+
+Eigen::Vector3d of_cylinder(const double angle)
+{
+  return {std::pow(std::cos(angle), 2), std::pow(std::sin(angle), 2), std::sin(2. * angle)};
+}
+
+RolledCell rolled_stripes(const int n)
+{
+  const tests::BracketCell cell = tests::bracket_cell(
+    tests::square_lattice(side), n, n, {}, [](double, double f2) { return f2 < 0.5 ? 0 : 1; });
+  const auto of       = [](const double E) { return tests::plate(E, nu, thickness); };
+  const auto membrane = [](const double E)
+  { return Eigen::Matrix3d(thickness * tests::isotropic_stiffness(E, nu)); };
+  return rolled_cell(glued(cell.mesh, cell.lattice), {of(1e6), of(1e7)},
+                     {membrane(1e6), membrane(1e7)});
+}
+
+/// D_eff(R) / D^H_nn of stripes: phi of the coordinate across them alone, by differences on n
+/// points; across the stripes and in shear the sheet gives way, so that only E t (e11 − phi K11) is
+/// left.
+double stiffening_of_stripes(const double angle, const double radius)
+{
+  constexpr int n         = 400;
+  constexpr double h      = side / n;
+  const Eigen::Vector3d K = of_cylinder(angle);
+  // Unknowns: n values of phi and the mean strain; phi is anchored by the mean strain.
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  Eigen::VectorXd right  = Eigen::VectorXd::Zero(n + 1);
+  double alone           = 0.;
+  for (int i = 0; i < n; ++i)
+  {
+    const double E          = i < n / 2 ? 1e6 : 1e7;
+    const Eigen::Matrix3d D = tests::plate(E, nu, thickness);
+    Eigen::VectorXd second = Eigen::VectorXd::Zero(n + 1), stretch = Eigen::VectorXd::Zero(n + 1);
+    second((i + n - 1) % n) = second((i + 1) % n) = 1. / (h * h);
+    second(i)                                     = -2. / (h * h);
+    stretch(i)                                    = -K(0) / radius;
+    stretch(n)                                    = 1.;
+    matrix +=
+      D(1, 1) * second * second.transpose() / n + E * thickness * stretch * stretch.transpose() / n;
+    right -= (D * K)(1) * second / n;
+    alone += K.dot(D * K) / n;
+  }
+  return alone - right.dot(matrix.ldlt().solve(right));
+}
+} // namespace
+
+// A sheet that is moved to y + v, w with w = ½ k s² + phi, s = n.y, v = −(k² s³/6 + k s phi) n has
+// the strain e up to (grad v)², of fourth order in k.
+TEST(exact_rolled_cell, strain_is_that_of_a_surface_in_space)
+{
+  const double angle = 0.4;
+  const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
+  const Eigen::Vector2d at(0.3, -0.7);
+  std::vector<double> wrong;
+  for (const double k : {0.1, 0.05})
+  {
+    const auto phi = [&](const Eigen::Vector2d &y)
+    { return k * std::sin(2. * y(0) + 0.3) * std::cos(y(1)); };
+    const auto surface = [&](const Eigen::Vector2d &y)
+    {
+      const double s              = n.dot(y);
+      const Eigen::Vector2d moved = y - (k * k * s * s * s / 6. + k * s * phi(y)) * n;
+      return Eigen::Vector3d(moved(0), moved(1), 0.5 * k * s * s + phi(y));
+    };
+    constexpr double h = 1e-4;
+    Eigen::Matrix<double, 3, 2> F;
+    Eigen::Vector2d gradient;
+    for (int j = 0; j < 2; ++j)
+    {
+      const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(j);
+      F.col(j)                   = (surface(at + step) - surface(at - step)) / (2. * h);
+      gradient(j)                = (phi(at + step) - phi(at - step)) / (2. * h);
+    }
+    const Eigen::Matrix2d green = 0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity());
+    const Eigen::Vector3d exact(green(0, 0), green(1, 1), 2. * green(0, 1));
+    const Eigen::Vector3d K = k * of_cylinder(angle);
+    wrong.push_back((strain_of_deflection(K, phi(at), gradient) - exact).norm());
+    EXPECT_LT(wrong.back(), 0.1 * exact.norm());
+  }
+  EXPECT_NEAR(std::log2(wrong[0] / wrong[1]), 4., 0.1);
+}
+
+TEST(exact_rolled_cell, stripes_are_those_of_one_coordinate)
+{
+  const RolledCell rolled = rolled_stripes(16);
+  for (const double angle : {0., 0.5, 0.25 * M_PI, 1.2})
+  {
+    const Eigen::Vector3d K = of_cylinder(angle);
+    const double flat       = K.dot(rolled.stiffness * K);
+    const auto exact        = [&](const double radius)
+    { return stiffening_of_stripes(angle, radius) / flat; };
+    // Far out the bound is what happens; nearer, it is one.
+    EXPECT_NEAR(exact(0.2), rolled.most(angle, 0.2), 0.02 * (rolled.most(angle, 0.2) - 1.) + 2e-5);
+    for (const double radius : {0.03, 0.01, 0.003, 1e-3})
+    {
+      EXPECT_LT(exact(radius), rolled.most(angle, radius) * (1. + 1e-4)) << angle << ", " << radius;
+      EXPECT_GT(exact(radius), 1. - 1e-4);
+    }
+  }
+}
+
+TEST(order_rolled_cell, stripes_have_their_closed_form_to_order_4)
+{
+  // phi = -+ ½ c (x² − a x) in stripes of width a, c = (K22 + nu K11) ((1/D) / mean(1/D) − 1).
+  const auto exact = [](const double angle)
+  {
+    const Eigen::Vector3d K = of_cylinder(angle);
+    const double a = side / 2., c = (K(1) + nu * K(0)) * (1e-6 / (0.5 * (1e-6 + 1e-7)) - 1.),
+                 soft = 0.5 * 1e6 * thickness, hard = 0.5 * 1e7 * thickness;
+    return std::pow(K(0) * c * a * a, 2) *
+           ((soft + hard) / 120. - std::pow(hard - soft, 2) / (144. * (soft + hard)));
+  };
+  for (const double angle : {0., 0.25 * M_PI, 0.5 * M_PI})
+  {
+    std::vector<double> errors;
+    for (const int n : {8, 16})
+    {
+      const RolledCell rolled = rolled_stripes(n);
+      const Eigen::Vector3d K = of_cylinder(angle);
+      errors.push_back(rolled.stretching(angle) * K.dot(rolled.stiffness * K) - exact(angle));
+    }
+    EXPECT_GT(errors[1], 0.) << angle << ": competitors lie above";
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4., 0.3) << angle;
+  }
+}
+
+TEST(invariant_rolled_cell, a_turned_cell_stiffens_along_turned_directions)
+{
+  const tests::BracketCell cell =
+    tests::bracket_cell(tests::skewed_lattice(), 8, 8, tests::contrasting(10.), tests::odd_pattern);
+  constexpr double angle     = 0.3;
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  tests::BracketCell turned  = cell;
+  turned.mesh.vertices *= turn.transpose();
+  turned.lattice.vectors *= turn.transpose();
+  const auto rolled = [](const tests::BracketCell &of)
+  { return rolled_cell(glued(of.mesh, of.lattice), of.stiffness, of.stiffness); };
+  const RolledCell before = rolled(cell), after = rolled(turned);
+  for (const double direction : {0., 0.7, 2.})
+  {
+    EXPECT_GT(before.stretching(direction), 1e-7 * std::pow(cell.lattice.area(), 2));
+    EXPECT_NEAR(after.stretching(direction + angle), before.stretching(direction),
+                1e-9 * before.stretching(direction));
+    EXPECT_NEAR(after.stiffest(direction + angle), before.stiffest(direction), 1e-12);
+  }
+}
+
+TEST(exact_rolled_cell, where_phases_bend_alike_no_radius_is_too_small)
+{
+  const tests::BracketCell cell = tests::bracket_cell(tests::skewed_lattice(), 8, 8,
+                                                      tests::contrasting(1.01), tests::odd_pattern);
+  const RolledCell rolled =
+    rolled_cell(glued(cell.mesh, cell.lattice), cell.stiffness, cell.stiffness);
+  EXPECT_EQ(rolled.least_radius(0.3, 0.02), 0.);
+  EXPECT_GT(rolled.least_radius(0.3, 1e-6), 0.);
+  EXPECT_NEAR(rolled.most(0.3, rolled.least_radius(0.3, 1e-6)), 1. + 1e-6, 1e-12);
+}
