@@ -95,36 +95,20 @@ std::function<const CellLadder &()> kept_ladder(const homogenization::UnitCell &
   };
 }
 
-DiscretizedMethods::DiscretizedMethods(const DiscretizedCell &cell, const meshes::Sheet &sheet,
-                                       const Load &load,
-                                       const std::map<Law, meshes::FittedModes> &fitted)
-    : cell(cell)
-    , sheet(sheet)
-    , load(load)
-    , fitted(fitted)
+MovedModel &MovedMethods::at(const Law law, const std::string &name)
 {
-}
-
-meshes::Points DiscretizedMethods::at(const std::string &name, const Law law, const double strain)
-{
-  const Method method  = Method(name).under(law);
-  const auto its_modes = fitted.find(law);
-  CellModel of         = {cell.cell, cell.edges ? &*cell.edges : nullptr};
+  const auto known = moved.find({law, name});
+  if (known != moved.end())
+    return known->second;
+  CellModel of        = cell;
+  const Method method = Method(name).under(law);
   if (method.has_fitted_modes(law))
   {
-    if (its_modes == fitted.end())
-      return {};
-    of.fitted = &its_modes->second;
+    const auto its = fitted.find(law);
+    if (its == fitted.end())
+      throw meshes::NotConverged("no modes could be fitted under this law", {});
+    of.fitted = &its->second;
   }
-  try
-  {
-    MovedMethod &its = moved.try_emplace({law, name}, of, sheet, load, method, law).first->second;
-    its.state        = its.model.solve(strain, its.state ? &*its.state : nullptr);
-    return its.model.upsample(*its.state);
-  }
-  catch (const meshes::NotConverged &)
-  {
-    return {};
-  }
+  return moved.try_emplace({law, name}, of, sheet, load, method, law).first->second;
 }
 } // namespace homespun::verification

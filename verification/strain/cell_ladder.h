@@ -20,6 +20,11 @@ namespace homespun::verification
 /// A cell as methods read it, at the vertices of the given mesh.
 struct DiscretizedCell
 {
+  CellModel model() const
+  {
+    return {cell, edges ? &*edges : nullptr};
+  }
+
   meshes::HomogenizedCell cell;
   std::optional<meshes::CellEdges> edges;
 };
@@ -39,37 +44,36 @@ CellLadder ladder_of(const homogenization::UnitCell &cell, const DiscretizedCell
 std::function<const CellLadder &()> kept_ladder(const homogenization::UnitCell &cell,
                                                 DiscretizedCell p1, MPI_Comm communicator);
 
-/// A method, and where its coarse cloth has come to.
-struct MovedMethod
+/// A model and where it has come to, from strain to strain.
+struct MovedModel
 {
-  MovedMethod(const CellModel &cell, const meshes::Sheet &sheet, const Load &load,
-              const Method &method, const Law law)
+  MovedModel(const CellModel &cell, const meshes::Sheet &sheet, const Load &load,
+             const Method &method, const Law law)
       : model(cell, sheet, load, method, law)
   {
   }
 
-  CoarseModel model;
-  std::optional<CoarseState> state = {};
+  /// @throws NotConverged
+  const CoarseState &move(const double strain)
+  {
+    state = model.solve(strain, state ? &*state : nullptr);
+    return *state;
+  }
+
+  const CoarseModel model;
+  std::optional<CoarseState> state;
 };
 
-/// Methods of one discretization of the cell on a sheet, from strain to strain.
-class DiscretizedMethods
+/// Methods on a sheet by one discretization of its cell, each from strain to strain.
+struct MovedMethods
 {
-public:
-  /// @param cell, sheet, load, fitted to be kept by the caller; modes that are fitted under a law
-  ///   stay those of P1
-  DiscretizedMethods(const DiscretizedCell &cell, const meshes::Sheet &sheet, const Load &load,
-                     const std::map<Law, meshes::FittedModes> &fitted);
+  /// @throws NotConverged where its modes were to be fitted and could not be
+  MovedModel &at(Law law, const std::string &method);
 
-  /// @return (n,2) at the vertices of the sheet [m]; none where the method finds no equilibrium or
-  ///   lacks its modes
-  meshes::Points at(const std::string &method, Law law, double strain);
-
-private:
-  const DiscretizedCell &cell;
+  CellModel cell; ///< its fitted modes are those of the law, below
   const meshes::Sheet &sheet;
   const Load &load;
-  const std::map<Law, meshes::FittedModes> &fitted;
-  std::map<std::pair<Law, std::string>, MovedMethod> moved;
+  std::map<Law, meshes::FittedModes> fitted               = {}; ///< where a method asks for them
+  std::map<std::pair<Law, std::string>, MovedModel> moved = {}; ///< that were asked for
 };
 } // namespace homespun::verification

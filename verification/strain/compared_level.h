@@ -31,20 +31,11 @@ struct ResolvedLevel
 };
 
 /// The methods on a sheet, and what their errors are measured by.
-struct MethodsOnSheet
+struct MethodsOnSheet : MovedMethods
 {
-  CellModel cell; ///< its fitted modes are those of the law, below
-  const meshes::Sheet &sheet;
-  const Load &load;
   FluctuationMeasure fluctuation;
-  std::vector<Eigen::Matrix3d> stiffness_of_phase;               ///< of the resolved sheet [N/m]
-  std::vector<std::string> phases                          = {}; ///< their names
-  std::string why_no_edges                                 = {}; ///< where the cell has none
-  std::map<Law, meshes::FittedModes> fitted                = {}; ///< where a method asks for them
-  std::map<std::pair<Law, std::string>, MovedMethod> moved = {}; ///< that were asked for
-
-  /// @throws NotConverged where its modes were to be fitted and could not be
-  MovedMethod &at(Law law, const std::string &name);
+  const homogenization::UnitCell &resolved; ///< cell of the resolved sheet
+  std::string why_no_edges = {};            ///< where the cell has none
 };
 
 /// A sheet under a load, with what holds the method against the reference there.

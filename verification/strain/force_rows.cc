@@ -34,55 +34,35 @@ ForceRow row_of_forces(const StrainLevel &level, const char *method, const Load 
   return row;
 }
 
-/// Energy and stress of the resolved sheet where the coarse motion, interpolated, puts it.
-class AffineMotion
-{
-public:
-  AffineMotion(const StrainLevel &level, const MethodsOnSheet &methods, const CoarseModel &model)
-      : level(level)
-      , methods(methods)
-      , model(model)
-      , interpolated(methods.cell.cell, model.mesh(), methods.sheet,
-                     Method("affine").options(level.law))
-  {
-  }
-
-  SheetEnergy at(const CoarseState &state) const
-  {
-    localization::Upsampler<2, double>::Fine fine;
-    interpolated.upsample(state.positions, fine);
-    return sheet_energy(methods.sheet, methods.stiffness_of_phase, level.law, fine);
-  }
-
-  /// dE/d(strain) [J].
-  double slope(const CoarseState &coarse) const
-  {
-    constexpr double part = 1e-3;
-    const double ahead = (1. + part) * level.strain, behind = (1. - part) * level.strain;
-    return (at(model.solve(ahead, &coarse)).energy - at(model.solve(behind, &coarse)).energy) /
-           (ahead - behind);
-  }
-
-private:
-  const StrainLevel &level;
-  const MethodsOnSheet &methods;
-  const CoarseModel &model;
-  const localization::Upsampler<2, double> interpolated;
-};
-
 ForceRow affine_row(const StrainLevel &level, const MethodsOnSheet &methods,
                     const CoarseModel &model, const CoarseState &coarse)
 {
   ForceRow row = row_of(level, "affine");
-  const AffineMotion motion(level, methods, model);
+  const localization::Upsampler<2, double> interpolated(
+    methods.cell.cell, model.mesh(), methods.sheet, Method("affine").options(level.law));
+  // Of the resolved sheet where the coarse motion, interpolated, puts it.
+  const auto energy_at = [&](const CoarseState &state)
+  {
+    localization::Upsampler<2, double>::Fine fine;
+    interpolated.upsample(state.positions, fine);
+    return sheet_energy(methods.sheet, methods.resolved.stiffness_of_phase(), level.law, fine);
+  };
+  const auto slope = [&]() // dE/d(strain) [J]
+  {
+    constexpr double part = 1e-3;
+    const double ahead = (1. + part) * level.strain, behind = (1. - part) * level.strain;
+    return (energy_at(model.solve(ahead, &coarse)).energy -
+            energy_at(model.solve(behind, &coarse)).energy) /
+           (ahead - behind);
+  };
   const Load &load             = methods.load;
   const Eigen::Matrix2d sides  = methods.sheet.sides();
-  const Eigen::Matrix2d stress = motion.at(coarse).stress;
+  const Eigen::Matrix2d stress = energy_at(coarse).stress;
   put_stress(stress, row);
   if (load.has_free_sides())
   {
     // The free strains of the motion do work too: no stress alone is the derivative of the energy.
-    row.per_width = motion.slope(coarse) / std::abs(sides.determinant());
+    row.per_width = slope() / std::abs(sides.determinant());
     return row;
   }
   if (load.is_periodic())
@@ -96,7 +76,7 @@ ForceRow affine_row(const StrainLevel &level, const MethodsOnSheet &methods,
   try
   {
     const double width = sides.row(1 - load.axis()).norm();
-    row.force          = motion.slope(coarse) / load.displacement({1., 1.}, sides, 1.).norm();
+    row.force          = slope() / load.displacement({1., 1.}, sides, 1.).norm();
     row.per_width      = row.force / width;
   }
   catch (const meshes::NotConverged &)

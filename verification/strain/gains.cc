@@ -6,6 +6,7 @@
 #include "verification/method/method.h"
 #include "verification/record/claim.h"
 #include "verification/strain/budget/budget_rows.h"
+#include "verification/strain/strain_cases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,7 @@ namespace
 {
 bool is_reached_in(const StrainRow &row, const StrainRow &of_case)
 {
-  return row.is_reached() && row.cell == of_case.cell && row.load == of_case.load &&
-         row.reference == of_case.reference;
+  return row.is_reached() && is_of_case(row, of_case);
 }
 
 const StrainRow *row_of(const std::vector<StrainRow> &rows, const StrainRow &of_case,

@@ -15,30 +15,10 @@ namespace homespun::verification
 {
 namespace
 {
-/// The rows of a part under one reference.
-std::vector<LevelRow> rows_of(const std::vector<LevelRow> &all, const StrainLevel &of,
-                              const std::string &part)
-{
-  std::vector<LevelRow> rows;
-  for (const LevelRow &row : all)
-    if (row.cell == of.cell && row.load == of.load && row.reference == name_of(of.law) &&
-        row.part == part)
-      rows.push_back(row);
-  return rows;
-}
-
 LevelRow row_of(const StrainLevel &level, const std::string &part, const PhaseEllipticity &found)
 {
-  LevelRow row;
-  row.cell      = level.cell;
-  row.load      = level.load;
-  row.reference = name_of(level.law);
-  row.strain    = level.strain;
-  row.part      = part;
-  row.triangles = found.n_triangles;
-  row.lost      = found.n_lost;
-  row.least     = found.least;
-  return row;
+  return {level.cell, level.load,        name_of(level.law), level.strain,
+          part,       found.n_triangles, found.n_lost,       found.least};
 }
 
 /// Where a triangle of a sheet is, what pulls or presses it, and how far from elliptic it is.
@@ -52,61 +32,80 @@ std::string words_of(const WorstTriangle &worst, const meshes::Sheet &sheet)
          ") of the sides of the sheet, " + stress_text(worst);
 }
 
-std::string lost_of_all(const LevelRow &row)
+/// How elliptic a resolved sheet is, by groups of phases of one name.
+struct Groups
 {
-  return std::to_string(*row.lost) + " of " + std::to_string(*row.triangles) + " triangles";
-}
-/// Groups of phases of one name, and their triangles.
-std::pair<std::vector<std::string>, std::vector<PhaseEllipticity>>
-by_group(const std::vector<PhaseEllipticity> &found, const std::vector<std::string> &phases)
+  std::vector<std::string> names;
+  std::vector<PhaseEllipticity> found;
+};
+
+Groups by_group(const meshes::Sheet &sheet, const homogenization::UnitCell &cell, const Law law,
+                const meshes::Points &positions)
 {
-  std::vector<std::string> groups;
-  std::vector<PhaseEllipticity> of_group;
-  for (std::size_t p = 0; p < found.size(); ++p)
+  const std::vector<PhaseEllipticity> of_phase =
+    ellipticity_of_phases(sheet.mesh, cell.stiffness_of_phase(), law, positions);
+  Groups all;
+  for (std::size_t p = 0; p < of_phase.size(); ++p)
   {
-    const auto place = std::find(groups.begin(), groups.end(), phases[p]);
-    const auto g     = static_cast<std::size_t>(place - groups.begin());
-    if (place == groups.end())
+    const std::string &name = cell.phases[p].name;
+    const auto place        = std::find(all.names.begin(), all.names.end(), name);
+    const auto g            = static_cast<std::size_t>(place - all.names.begin());
+    if (place == all.names.end())
     {
-      groups.push_back(phases[p]);
-      of_group.emplace_back();
+      all.names.push_back(name);
+      all.found.emplace_back();
     }
-    of_group[g] = together({of_group[g], found[p]});
+    all.found[g] = together({all.found[g], of_phase[p]});
   }
-  return {groups, of_group};
+  return all;
+}
+
+const std::string &phase_of(const WorstTriangle &worst, const meshes::Sheet &sheet,
+                            const homogenization::UnitCell &cell)
+{
+  return cell.phases[static_cast<std::size_t>(sheet.mesh.material(worst.triangle))].name;
+}
+
+/// What a note says of a part that is lost.
+std::string note_of_loss(const LevelRow &row, const std::string &part, const StrainOutput &output,
+                         const std::string &law)
+{
+  std::vector<LevelRow> its;
+  for (const LevelRow &known : output.levels.rows())
+    if (known.cell == row.cell && known.load == row.load && known.reference == row.reference &&
+        known.part == row.part)
+      its.push_back(known);
+  return std::to_string(*row.lost) + " of " + std::to_string(*row.triangles) + " triangles of " +
+         part + " are not elliptic under " + law + ", the first from a strain of " +
+         percent_text(strain_of_loss(its)) + " on: ";
 }
 } // namespace
 
 void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
-                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                       const std::vector<std::string> &phases, StrainOutput &output)
+                       const homogenization::UnitCell &cell, StrainOutput &output)
 {
   if (level.law == Law::linear)
     return;
-  const std::vector<PhaseEllipticity> found = ellipticity_of_phases(
-    resolved.sheet.mesh, stiffness_of_phase, level.law, resolved.fine.positions);
-  const auto [groups, of_group] = by_group(found, phases);
+  const auto [groups, of_group] =
+    by_group(resolved.sheet, cell, level.law, resolved.fine.positions);
   std::string worst_group, worst_words;
   if (std::any_of(of_group.begin(), of_group.end(),
                   [](const PhaseEllipticity &one) { return one.n_lost > 0; }))
   {
-    const WorstTriangle worst =
-      worst_triangle(resolved.sheet.mesh, stiffness_of_phase, level.law, resolved.fine.positions);
-    worst_group = phases[static_cast<std::size_t>(resolved.sheet.mesh.material(worst.triangle))];
-    worst_words = "; the worst, " + words_of(worst, resolved.sheet);
+    const WorstTriangle worst = worst_triangle(resolved.sheet.mesh, cell.stiffness_of_phase(),
+                                               level.law, resolved.fine.positions);
+    worst_group               = phase_of(worst, resolved.sheet, cell);
+    worst_words               = "; the worst, " + words_of(worst, resolved.sheet);
   }
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     const LevelRow row = row_of(level, groups[g], of_group[g]);
-    output.write_ellipticity(row);
+    output.levels.append_if_missing(row);
     if (row.lost > 0)
-      output.write_note(
-        level, lost_of_all(row) + " of phase " + groups[g] + " are not elliptic under " +
-                 row.reference + ", the first from a strain of " +
-                 percent_text(strain_of_loss(rows_of(output.level_rows(), level, groups[g]))) +
-                 " on: no minimum of the energy need exist, and what is compared is one "
-                 "equilibrium of its mesh" +
-                 (groups[g] == worst_group ? worst_words : ""));
+      output.write_note(level, note_of_loss(row, "phase " + groups[g], output, row.reference) +
+                                 "no minimum of the energy need exist, and what is compared is one "
+                                 "equilibrium of its mesh" +
+                                 (groups[g] == worst_group ? worst_words : ""));
   }
 }
 
@@ -119,10 +118,8 @@ std::string note_of_stop(const StrainLevel &level, const StoppedReference &stopp
                            stopped.step.why.substr(0, stopped.step.why.find("; residual norms"));
   if (!worst)
     return none;
-  const std::string phase =
-    stopped.cell.phases[static_cast<std::size_t>(stopped.sheet.mesh.material(worst->triangle))]
-      .name;
-  const std::string its = words_of(*worst, stopped.sheet);
+  const std::string phase = phase_of(*worst, stopped.sheet, stopped.cell);
+  const std::string its   = words_of(*worst, stopped.sheet);
   if (worst->is_lost)
     return none +
            "; the law ends there, not the solver: at the last equilibrium a triangle of phase " +
@@ -162,21 +159,16 @@ void write_ellipticity_of(const StrainLevel &level, const StoppedReference &stop
 {
   StrainLevel last = level;
   last.strain      = stopped.step.stopped_at;
-  std::vector<std::string> names;
-  for (const homogenization::Phase &phase : stopped.cell.phases)
-    names.push_back(phase.name);
   const auto [groups, of_group] =
-    by_group(ellipticity_of_phases(stopped.sheet.mesh, stopped.cell.stiffness_of_phase(), level.law,
-                                   stopped.step.positions),
-             names);
+    by_group(stopped.sheet, stopped.cell, level.law, stopped.step.positions);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    output.write_ellipticity(row_of(last, groups[g], of_group[g]));
+    output.levels.append_if_missing(row_of(last, groups[g], of_group[g]));
   if (!end || ending_of(*end) != Ending::law || !(end->as_given.farthest > last.strain))
     return;
   const std::string n = std::to_string(end->n_cells), part = "sheet of " + n + " x " + n + " cells";
-  output.write_ellipticity(row_of(last, part, together(of_group)));
+  output.levels.append_if_missing(row_of(last, part, together(of_group)));
   last.strain = end->as_given.farthest;
-  output.write_ellipticity(row_of(last, part, *end->as_given.triangles));
+  output.levels.append_if_missing(row_of(last, part, *end->as_given.triangles));
 }
 } // namespace
 
@@ -210,19 +202,18 @@ void write_coarse_ellipticity(const StrainLevel &level, const meshes::TriangleMe
   one.material.setZero(one.n_triangles());
   const PhaseEllipticity found = ellipticity_of_phases(one, {stiffness}, law, positions).front();
   const LevelRow row           = row_of(level, coarse_cloth_part, found);
-  const std::vector<LevelRow> &all = output.level_rows();
-  const auto is_of_loss            = [&](const LevelRow &known)
-  {
-    return known.cell == level.cell && known.load == level.load &&
-           known.part == coarse_cloth_part && known.lost > 0;
-  };
-  const bool is_told = std::any_of(all.begin(), all.end(), is_of_loss);
-  output.write_ellipticity(row);
+  const std::vector<LevelRow> &all = output.levels.rows();
+  const bool is_told               = std::any_of(all.begin(), all.end(),
+                                                 [&](const LevelRow &known)
+                                                 {
+                                     return known.cell == level.cell && known.load == level.load &&
+                                            known.part == coarse_cloth_part && known.lost > 0;
+                                   });
+  output.levels.append_if_missing(row);
   if (row.lost > 0 && !is_told)
     output.write_note(
-      level, lost_of_all(row) + " of the coarse cloth are not elliptic under its law, " +
-               name_of(law) + " with C^H, the first from a strain of " +
-               percent_text(strain_of_loss(rows_of(all, level, coarse_cloth_part))) +
-               " on: from there its equilibrium, too, is one of its mesh (said once per load)");
+      level,
+      note_of_loss(row, "the coarse cloth", output, "its law, " + name_of(law) + " with C^H") +
+        "from there its equilibrium, too, is one of its mesh (said once per load)");
 }
 } // namespace homespun::verification

@@ -17,10 +17,9 @@ constexpr const char *coarse_cloth_part = "coarse cloth";
 
 /// Writes a row for each group of phases of a resolved level, and a note where triangles are lost.
 /// Of the law `linear`, whose tangent never changes, nothing.
-/// @param phases name of each phase; phases of one name are one group
+/// @param cell of the sheet; its phases of one name are one group
 void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
-                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                       const std::vector<std::string> &phases, StrainOutput &output);
+                       const homogenization::UnitCell &cell, StrainOutput &output);
 
 /// Where a reference got no further.
 struct StoppedReference

@@ -1,51 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/reference_uncertainty.h"
 
+#include "meshes/plain/errors.h"
 #include "verification/record/on_root.h"
 #include "verification/reference/fine_reference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace homespun::verification
 {
 namespace
 {
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Sets one distance, of the means and of the largest.
-void set_distance(double DiscretizationDistance::*which, const meshes::Points &a,
-                  const meshes::Points &b, DiscretizationDistance &mean,
-                  DiscretizationDistance &max)
+/// Distances of two or three solutions, each as `between` has it.
+template <typename Solution, typename Between>
+DiscretizationDistance distances_of(const std::vector<Solution> &of, const Between &between)
 {
-  const Eigen::VectorXd distance = (a - b).rowwise().norm();
-  mean.*which                    = distance.mean();
-  max.*which                     = distance.maxCoeff();
-}
-
-/// The distance of the last of two or three solutions from those before.
-DiscretizationDistance distance_between(const std::vector<meshes::Points> &of)
-{
-  DiscretizationDistance mean, max;
-  set_distance(&DiscretizationDistance::p1_to_p2, of[0], of[1], mean, max);
+  DiscretizationDistance found = unknown_distance;
+  found.reached                = true;
+  found.p1_to_p2               = between(of[0], of[1]);
   if (of.size() > 2)
   {
-    set_distance(&DiscretizationDistance::p1_to_refined, of[0], of[2], mean, max);
-    set_distance(&DiscretizationDistance::p2_to_refined, of[1], of[2], mean, max);
+    found.p1_to_refined = between(of[0], of[2]);
+    found.p2_to_refined = between(of[1], of[2]);
   }
-  mean.reached = true;
-  return mean;
+  return found;
 }
 
-/// Linear in strain through two measured values, never below `least`.
-double on_line(const std::pair<double, double> &a, const std::pair<double, double> &b,
-               const double strain, const double least)
+double mean_distance(const meshes::Points &a, const meshes::Points &b)
 {
-  return std::max(a.second + (b.second - a.second) * (strain - a.first) / (b.first - a.first),
-                  least);
+  const Eigen::VectorXd distance = (a - b).rowwise().norm();
+  return distance.mean();
+}
+
+double largest_distance(const meshes::Points &a, const meshes::Points &b)
+{
+  return (a - b).rowwise().norm().maxCoeff();
 }
 
 /// What was measured at a strain, or lies on the line through the two beside it.
@@ -60,14 +51,15 @@ double at_strain(const std::map<double, Bar> &bars, const double strain, const d
   double smallest  = left->second.*which;
   for (const auto &[its_strain, bar] : bars)
     smallest = std::min(smallest, bar.*which);
-  return on_line({left->first, left->second.*which}, {right->first, right->second.*which}, strain,
-                 0.5 * smallest);
+  return std::max(left->second.*which + (right->second.*which - left->second.*which) *
+                                          (strain - left->first) / (right->first - left->first),
+                  0.5 * smallest);
 }
 
 /// |P1 − P2| of a sheet over that of a smaller one.
 double growth(const DiscretizationDistance &at_full, const DiscretizationDistance &of)
 {
-  return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown;
+  return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown_length;
 }
 } // namespace
 
@@ -102,22 +94,12 @@ ReferenceUncertainty::measure(const Measurement &what) const
   std::vector<Distances> distances(what.strains.size());
   for (std::size_t k = 0; k < what.strains.size(); ++k)
   {
-    const std::vector<meshes::Points> &of = positions[k];
-    auto &[mean, max, force, errors]      = distances[k];
-    if (of.size() < ladder.size())
+    if (positions[k].size() < ladder.size())
       continue;
-    mean.reached = max.reached = force.reached = true;
-    const auto between                         = [&](const std::size_t a, const std::size_t b)
-    { return std::abs(forces[k][a] - forces[k][b]) / std::abs(forces[k][0]); };
-    set_distance(&DiscretizationDistance::p1_to_p2, of[0], of[1], mean, max);
-    force.p1_to_p2 = between(0, 1);
-    if (what.ladder == Ladder::with_refined_p2)
-    {
-      set_distance(&DiscretizationDistance::p1_to_refined, of[0], of[2], mean, max);
-      set_distance(&DiscretizationDistance::p2_to_refined, of[1], of[2], mean, max);
-      force.p1_to_refined = between(0, 2);
-      force.p2_to_refined = between(1, 2);
-    }
+    distances[k].mean  = distances_of(positions[k], mean_distance);
+    distances[k].max   = distances_of(positions[k], largest_distance);
+    distances[k].force = distances_of(forces[k], [&](const double a, const double b)
+                                      { return std::abs(a - b) / std::abs(forces[k][0]); });
   }
   add_errors(what, sheet, positions, distances);
   return distances;
@@ -134,21 +116,26 @@ void ReferenceUncertainty::add_errors(const Measurement &what, const meshes::She
   on_root(communicator,
           [&]()
           {
-            std::vector<DiscretizedMethods> by;
+            std::vector<MovedMethods> by;
             for (const DiscretizedCell &of : cells)
-              by.emplace_back(of, sheet, load, *methods.fitted);
+              by.push_back({of.model(), sheet, load, *methods.fitted});
             for (std::size_t k = 0; k < what.strains.size() && distances[k].mean.reached; ++k)
               for (const std::string &name : methods.names)
-              {
-                std::vector<meshes::Points> errors;
-                for (std::size_t d = 0; d < references[k].size(); ++d)
-                  if (const meshes::Points moved = by[d].at(name, what.law, what.strains[k]);
-                      moved.allFinite() && moved.rows() == references[k][d].rows())
-                    errors.emplace_back(moved - references[k][d]);
-                distances[k].errors[name] = errors.size() == references[k].size()
-                                              ? distance_between(errors)
-                                              : DiscretizationDistance();
-              }
+                try
+                {
+                  std::vector<meshes::Points> errors;
+                  for (std::size_t d = 0; d < references[k].size(); ++d)
+                  {
+                    MovedModel &of = by[d].at(what.law, name);
+                    errors.emplace_back(of.model.upsample(of.move(what.strains[k])) -
+                                        references[k][d]);
+                  }
+                  distances[k].errors[name] = distances_of(errors, mean_distance);
+                }
+                catch (const meshes::NotConverged &)
+                {
+                  distances[k].errors[name] = unknown_distance;
+                }
           });
 }
 
@@ -172,26 +159,18 @@ const UncertaintyRow *ReferenceUncertainty::stored(const Measurement &what, cons
 bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
                                    Distances &known) const
 {
-  std::array<double, 10> told = {};
-  if (const UncertaintyRow *const row = stored(what, strain, UncertaintyRow::of_reference))
-    told = {1.,
-            row->p1_to_p2,
-            row->p1_to_refined,
-            row->p2_to_refined,
-            row->p1_to_p2_max,
-            row->p1_to_refined_max,
-            row->p2_to_refined_max,
-            row->force_p1_to_p2,
-            row->force_p1_to_refined,
-            row->force_p2_to_refined};
-  MPI_Bcast(told.data(), static_cast<int>(told.size()), MPI_DOUBLE, 0, communicator);
-  if (!(told[0] > 0.))
-    return false;
-  const bool reached = std::isfinite(told[1]);
-  known.mean         = {told[1], told[2], told[3], reached};
-  known.max          = {told[4], told[5], told[6], reached};
-  known.force        = {told[7], told[8], told[9], reached};
-  return true;
+  const UncertaintyRow *const row = stored(what, strain, UncertaintyRow::of_reference);
+  if (row != nullptr)
+  {
+    const bool reached = std::isfinite(row->p1_to_p2);
+    known.mean         = {row->p1_to_p2, row->p1_to_refined, row->p2_to_refined, reached};
+    known.max   = {row->p1_to_p2_max, row->p1_to_refined_max, row->p2_to_refined_max, reached};
+    known.force = {row->force_p1_to_p2, row->force_p1_to_refined, row->force_p2_to_refined,
+                   reached};
+  }
+  for (DiscretizationDistance *const of : {&known.mean, &known.max, &known.force})
+    MPI_Bcast(of, sizeof(*of), MPI_BYTE, 0, communicator);
+  return answer_of_root(row != nullptr, communicator);
 }
 
 bool ReferenceUncertainty::look_up_errors(const Measurement &what, const double strain,
@@ -215,34 +194,24 @@ void ReferenceUncertainty::keep(const Measurement &what, const double strain,
   const auto row_of = [&](const std::string &method, const DiscretizationDistance &of)
   {
     UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells, method};
-    if (of.reached)
-      row.p1_to_p2 = of.p1_to_p2;
-    if (of.reached && what.ladder == Ladder::with_refined_p2)
-    {
-      row.p1_to_refined = of.p1_to_refined;
-      row.p2_to_refined = of.p2_to_refined;
-      row.bar           = of.uncertainty(order) / (strain * side);
-    }
+    row.p1_to_p2       = of.p1_to_p2;
+    row.p1_to_refined  = of.p1_to_refined;
+    row.p2_to_refined  = of.p2_to_refined;
+    row.bar            = of.uncertainty(order) / (strain * side);
     return row;
   };
   for (const auto &[name, of] : measured.errors)
     table->append_if_missing(row_of(name, of));
-  UncertaintyRow row = row_of(UncertaintyRow::of_reference, measured.mean);
-  if (measured.mean.reached)
-  {
-    row.p1_to_p2_max   = measured.max.p1_to_p2;
-    row.force_p1_to_p2 = measured.force.p1_to_p2;
-    if (what.ladder == Ladder::with_refined_p2)
-    {
-      row.p1_to_refined_max   = measured.max.p1_to_refined;
-      row.p2_to_refined_max   = measured.max.p2_to_refined;
-      row.force_p1_to_refined = measured.force.p1_to_refined;
-      row.force_p2_to_refined = measured.force.p2_to_refined;
-      const ReferenceBar bar  = bar_of(measured, strain);
-      row.bar_max             = bar.max;
-      row.force_bar           = bar.force;
-    }
-  }
+  UncertaintyRow row      = row_of(UncertaintyRow::of_reference, measured.mean);
+  row.p1_to_p2_max        = measured.max.p1_to_p2;
+  row.p1_to_refined_max   = measured.max.p1_to_refined;
+  row.p2_to_refined_max   = measured.max.p2_to_refined;
+  row.force_p1_to_p2      = measured.force.p1_to_p2;
+  row.force_p1_to_refined = measured.force.p1_to_refined;
+  row.force_p2_to_refined = measured.force.p2_to_refined;
+  const ReferenceBar bar  = bar_of(measured, strain);
+  row.bar_max             = bar.max;
+  row.force_bar           = bar.force;
   table->append_if_missing(row);
 }
 
@@ -268,8 +237,6 @@ ReferenceUncertainty::known_or_measured(const Measurement &what) const
 
 ReferenceBar ReferenceUncertainty::bar_of(const Distances &distances, const double strain) const
 {
-  if (!distances.mean.reached)
-    return {unknown, unknown, unknown, unknown};
   return ReferenceBar{distances.mean.uncertainty(order), distances.max.uncertainty(order),
                       distances.mean.p1_to_refined, distances.force.uncertainty(order_of_force)} *
          (1. / (strain * side));

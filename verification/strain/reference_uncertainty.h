@@ -41,6 +41,11 @@ struct ErrorBar
   double safety = std::numeric_limits<double>::quiet_NaN(); ///< F, the largest that it rests on
 };
 
+/// Of discretizations of which one was not reached, or not asked for.
+constexpr double unknown_length                   = std::numeric_limits<double>::quiet_NaN();
+constexpr DiscretizationDistance unknown_distance = {unknown_length, unknown_length, unknown_length,
+                                                     false};
+
 /// The methods whose errors get a bar, and what it is measured with.
 struct MethodsOfCell
 {
@@ -103,7 +108,7 @@ private:
   /// of P1 [-].
   struct Distances
   {
-    DiscretizationDistance mean, max, force;
+    DiscretizationDistance mean = unknown_distance, max = mean, force = mean;
     std::map<std::string, DiscretizationDistance> errors = {}; ///< of methods [m]; first rank
   };
   enum class Ladder

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace homespun::verification
 {
@@ -32,23 +33,16 @@ struct Timed
 {
   Points positions;            ///< at the fine vertices [m]
   std::vector<double> seconds; ///< of each run
-  long n_triangles     = 0;
-  std::string note     = {};
-  double seconds_step  = std::numeric_limits<double>::quiet_NaN();
-  double seconds_apart = std::numeric_limits<double>::quiet_NaN(); ///< of up-sampling
+  RunTimeRow row = {};         ///< what is known of it before it is written
 };
 
-class RunTimeStudy
+class RunTimeStudy : SheetUnderLoad
 {
 public:
   RunTimeStudy(const SheetUnderLoad &of, const RunTimeOptions &options,
                const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
                const MPI_Comm communicator, const std::function<void(const std::string &)> &tell)
-      : cell(of.cell)
-      , homogenized(of.homogenized)
-      , bounds(of.bounds)
-      , sheet(of.sheet)
-      , load(of.load)
+      : SheetUnderLoad(of)
       , options(options)
       , uncertainty(uncertainty)
       , table(table)
@@ -59,26 +53,25 @@ public:
 
   std::string run()
   {
-    int is_there = table != nullptr && has("nodal-warping"); // the last one
-    MPI_Bcast(&is_there, 1, MPI_INT, 0, communicator);
-    if (is_there)
+    // The last one.
+    if (answer_of_root(table != nullptr && has("nodal-warping"), communicator))
       return {};
-    const Timed p2 = fine(2);
+    Timed p2 = fine(2);
     if (p2.positions.size() == 0)
-      return "the best reference finds no equilibrium; " + p2.note;
-    best                     = p2.positions;
-    const Timed p1           = fine(1);
-    const unsigned int ranks = n_ranks();
+      return "the best reference finds no equilibrium; " + p2.row.note;
+    best         = p2.positions;
+    Timed p1     = fine(1);
+    p1.row.ranks = p2.row.ranks = n_ranks_of(communicator);
     on_root(
       communicator,
       [&]()
       {
         bar = bar_of_p2(uncertainty, {cell.name, load.name, options.law, options.strain}, sheet.n1);
-        Timed of_p2 = p2;
-        of_p2.note += std::string(of_p2.note.empty() ? "" : "; ") +
-                      "what the others are held against: its error is its own error bar";
-        write("fine-p2", of_p2, ranks, bar);
-        write("fine-p1", p1, ranks);
+        p2.row.mean = bar;
+        p2.row.note += std::string(p2.row.note.empty() ? "" : "; ") +
+                       "what the others are held against: its error is its own error bar";
+        write("fine-p2", p2);
+        write("fine-p1", p1);
         full_resolution();
         coarse_cloths();
       });
@@ -86,21 +79,9 @@ public:
   }
 
 private:
-  unsigned int n_ranks() const
-  {
-    int n = 1;
-    MPI_Comm_size(communicator, &n);
-    return static_cast<unsigned int>(n);
-  }
-
-  RunTimeRow row_of(const std::string &way) const
-  {
-    return {cell.name, load.name, options.strain, name_of(options.law), way};
-  }
-
   bool has(const std::string &way) const
   {
-    return table->contains(row_of(way));
+    return table->contains({cell.name, load.name, options.strain, name_of(options.law), way});
   }
 
   /// Repeats a run up to the number asked for, or until it has taken long enough.
@@ -122,19 +103,17 @@ private:
   void say_if_fewer(Timed &outcome) const
   {
     if (const auto n = static_cast<int>(outcome.seconds.size()); n < options.n_runs)
-      outcome.note = std::to_string(n) + " of " + std::to_string(options.n_runs) +
-                     " runs: together they took more than " + short_text(options.seconds_of_a_way) +
-                     " s";
+      outcome.row.note = std::to_string(n) + " of " + std::to_string(options.n_runs) +
+                         " runs: together they took more than " +
+                         short_text(options.seconds_of_a_way) + " s";
   }
 
   Timed fine(const unsigned int order)
   {
     const std::string name = order == 1 ? "P1" : "P2";
     Timed outcome;
-    outcome.n_triangles = sheet.mesh.n_triangles();
-    ReferenceOptions with_order;
-    with_order.order = order;
-    FineReference reference(sheet, cell.stiffness_of_phase(), with_order, communicator);
+    outcome.row.triangles = sheet.mesh.n_triangles();
+    FineReference reference(sheet, cell.stiffness_of_phase(), {order, 0}, communicator);
     double spent = 0.; // slowest rank, the same on all
     for (int k = 0; k < options.n_runs && spent <= options.seconds_of_a_way; ++k)
     {
@@ -142,7 +121,11 @@ private:
       reference.start(load, options.law);
       const ReferenceStep step = reference.advance(options.strain);
       if (!step.reached)
-        return {{}, {}, 0, step.why};
+      {
+        Timed none;
+        none.row.note = step.why;
+        return none;
+      }
       outcome.seconds.push_back(step.seconds);
       spent += step.seconds;
       outcome.positions = step.positions;
@@ -156,10 +139,15 @@ private:
   {
     if (options.law == Law::biot)
       return true;
-    Timed left_out;
-    left_out.note = "left out: its law is biot, and that of the others " + name_of(options.law);
-    write(way, left_out, 1);
+    leave_out(way, "its law is biot, and that of the others " + name_of(options.law));
     return false;
+  }
+
+  void leave_out(const std::string &way, const std::string &why)
+  {
+    Timed none;
+    none.row.note = "left out: " + why;
+    write(way, none);
   }
 
   void full_resolution()
@@ -170,7 +158,7 @@ private:
     const shell::Positions<2> start =
       moved_affinely(load, sheet, sheet.mesh.vertices, options.strain);
     Timed outcome;
-    outcome.n_triangles = sheet.mesh.n_triangles();
+    outcome.row.triangles = sheet.mesh.n_triangles();
     const shell::MembraneSolver solver(shell::membrane(sheet.mesh, cell.stiffness_of_phase()),
                                        held_vertices(load, sheet, sheet.mesh.vertices));
     attempt("fine-corotational", outcome,
@@ -187,11 +175,7 @@ private:
         coarse_cloth(method + ("-" + std::to_string(quads)), method, quads, homogenized.stiffness);
     coarse_cloth("voigt", "localized", sheet.n1, bounds.voigt);
     if (bounds.reuss.isZero())
-    {
-      Timed left_out;
-      left_out.note = "left out: of a cell with holes Reuss's bound is zero";
-      write("reuss", left_out, 1);
-    }
+      leave_out("reuss", "of a cell with holes Reuss's bound is zero");
     else
       coarse_cloth("reuss", "localized", sheet.n1, bounds.reuss);
 
@@ -261,7 +245,7 @@ private:
     tell(way);
     localization::Upsampler<2, float>::Fine fine;
     Timed outcome;
-    outcome.n_triangles = model.mesh().n_triangles() / (model.method.has(Term::p2) ? 4 : 1);
+    outcome.row.triangles = model.mesh().n_triangles() / (model.method.has(Term::p2) ? 4 : 1);
     attempt(way, outcome,
             [&]()
             {
@@ -272,11 +256,10 @@ private:
                        moved = solve();
                        in_float.upsample(moved.positions, fine);
                      });
-              outcome.seconds_apart =
+              outcome.row.upsample =
                 median_seconds([&]() { in_float.upsample(moved.positions, fine); });
               if (moved.steps > 0)
-                outcome.seconds_step =
-                  (median(outcome.seconds) - outcome.seconds_apart) / moved.steps;
+                outcome.row.step = (median(outcome.seconds) - outcome.row.upsample) / moved.steps;
               localization::Upsampler<2, double>::Fine best_of_way;
               in_double.upsample(moved.positions, best_of_way);
               outcome.positions = best_of_way;
@@ -296,40 +279,29 @@ private:
     catch (const meshes::NotConverged &failure)
     {
       outcome.positions.resize(0, 2);
-      outcome.note = std::string("no equilibrium found; ") + failure.what();
+      outcome.row.note = std::string("no equilibrium found; ") + failure.what();
     }
-    write(way, outcome, 1);
+    write(way, outcome);
   }
 
-  void write(const std::string &way, const Timed &outcome, const unsigned int ranks,
-             const double known_error = std::numeric_limits<double>::quiet_NaN())
+  /// The mean error is the distance from the best solution, unless it is known already.
+  void write(const std::string &way, const Timed &outcome)
   {
     if (has(way))
       return;
-    const bool is_known = outcome.positions.size() > 0;
-    RunTimeRow row      = row_of(way);
-    row.triangles       = outcome.n_triangles;
-    if (std::isfinite(known_error))
-      row.mean = known_error;
-    else if (is_known && way != "fine-p2")
+    RunTimeRow row = outcome.row;
+    std::tie(row.cell, row.load, row.strain, row.reference, row.way) =
+      std::tuple(cell.name, load.name, options.strain, name_of(options.law), way);
+    if (outcome.positions.size() > 0)
+      row.seconds = median(outcome.seconds);
+    if (outcome.positions.size() > 0 && way != "fine-p2" && !std::isfinite(row.mean))
       row.mean = (outcome.positions - best).rowwise().norm().mean();
     row.per_cell    = row.mean / std::sqrt(cell.lattice.area());
     row.uncertainty = bar;
-    if (is_known)
-      row.seconds = median(outcome.seconds);
-    row.step     = outcome.seconds_step;
-    row.upsample = outcome.seconds_apart;
-    row.runs     = static_cast<int>(outcome.seconds.size());
-    row.ranks    = ranks;
-    row.note     = outcome.note;
+    row.runs        = static_cast<int>(outcome.seconds.size());
     table->append(row);
   }
 
-  const homogenization::UnitCell &cell;
-  const meshes::HomogenizedCell &homogenized;
-  const StiffnessBounds &bounds;
-  const meshes::Sheet &sheet;
-  const Load &load;
   const RunTimeOptions &options;
   const std::vector<UncertaintyRow> &uncertainty;
   Table<RunTimeRow> *const table;

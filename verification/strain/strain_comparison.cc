@@ -11,7 +11,6 @@
 #include "verification/strain/force_rows.h"
 #include "verification/strain/kept_positions.h"
 #include "verification/strain/level_ellipticity.h"
-#include "verification/strain/sheet_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,46 +41,20 @@ MethodsOnSheet methods_on_sheet(const homogenization::UnitCell &cell,
                                 const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
                                 const meshes::Sheet &sheet, const Load &load)
 {
-  MethodsOnSheet methods = {{homogenized, edges.edges ? &*edges.edges : nullptr},
-                            sheet,
-                            load,
-                            FluctuationMeasure(homogenized, sheet, load),
-                            cell.stiffness_of_phase()};
-  for (const homogenization::Phase &phase : cell.phases)
-    methods.phases.push_back(phase.name);
-  methods.why_no_edges = edges.why_not;
-  return methods;
-}
-
-MovedMethod &MethodsOnSheet::at(const Law law, const std::string &name)
-{
-  const auto known = moved.find({law, name});
-  if (known != moved.end())
-    return known->second;
-  CellModel of        = cell;
-  const Method method = Method(name).under(law);
-  if (method.has_fitted_modes(law))
-  {
-    const auto its = fitted.find(law);
-    if (its == fitted.end())
-      throw meshes::NotConverged("no modes could be fitted under this law", {});
-    of.fitted = &its->second;
-  }
-  return moved.try_emplace({law, name}, of, sheet, load, method, law).first->second;
+  return {{{homogenized, edges.edges ? &*edges.edges : nullptr}, sheet, load},
+          FluctuationMeasure(homogenized, sheet, load),
+          cell,
+          edges.why_not};
 }
 
 double pictured_strain(const StrainStudyOptions &options)
 {
-  return *std::min_element(options.strains.begin(), options.strains.end(),
-                           [](double a, double b)
-                           { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
+  return strain_nearest_to(0.1, options.strains);
 }
 
 double compared_strain(const StrainStudyOptions &options)
 {
-  return *std::min_element(options.strains.begin(), options.strains.end(),
-                           [](double a, double b)
-                           { return std::abs(std::log(a / 0.01)) < std::abs(std::log(b / 0.01)); });
+  return strain_nearest_to(0.01, options.strains);
 }
 
 namespace
@@ -132,7 +105,7 @@ struct UpsampledMethod
   meshes::Points positions = {}; ///< none where its own coarse cloth has no equilibrium [m]
   double seconds_coarse    = 0.; ///< of one run
   double seconds_upsample  = 0.;
-  const MovedMethod *moved = nullptr;
+  const MovedModel *moved  = nullptr;
 };
 
 /// @throws NotConverged where the coarse cloth of the method finds no equilibrium, or positions are
@@ -140,19 +113,16 @@ struct UpsampledMethod
 UpsampledMethod upsampled(const std::string &name, const StrainLevel &level,
                           MethodsOnSheet &methods)
 {
-  MovedMethod &moved = methods.at(level.law, name);
-  CoarseState state;
+  MovedModel &moved = methods.at(level.law, name);
   UpsampledMethod result;
   result.name           = name;
   result.moved          = &moved;
-  result.seconds_coarse = seconds_of(
-    [&]() { state = moved.model.solve(level.strain, moved.state ? &*moved.state : nullptr); });
-  const auto upsampler = moved.model.upsampler<double>();
+  result.seconds_coarse = seconds_of([&]() { moved.move(level.strain); });
+  const auto upsampler  = moved.model.upsampler<double>();
   localization::Upsampler<2, double>::Fine fine;
   result.seconds_upsample =
-    seconds_of([&]() { upsampler.upsample(moved.model.on_grid(state), fine); });
+    seconds_of([&]() { upsampler.upsample(moved.model.on_grid(*moved.state), fine); });
   result.positions = fine;
-  moved.state      = std::move(state);
   if (!result.positions.allFinite())
     throw meshes::NotConverged(
       level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
@@ -235,11 +205,11 @@ void write_first_notes(const StrainStudyOptions &options, const StrainLevel &lev
     output.write_note(level, note_on_coarse_yarns(level.law, methods.cell.cell.stiffness));
 }
 
-/// The row of a level but for its keys and the up-sampling.
-LevelRow step_of(const ResolvedLevel &resolved, const UpsampledMethod &localized,
-                 const Fluctuation &fluctuation, const Law homogenized_law)
+LevelRow step_of(const StrainLevel &level, const ResolvedLevel &resolved,
+                 const UpsampledMethod &localized, const Fluctuation &fluctuation,
+                 const Law homogenized_law)
 {
-  LevelRow step;
+  LevelRow step            = row_of(level);
   step.seconds_coarse      = localized.seconds_coarse;
   step.seconds_upsample    = localized.seconds_upsample;
   step.seconds_fine        = resolved.fine.seconds;
@@ -282,7 +252,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const ReferenceStep &fine           = resolved.fine;
   const Load &load                    = methods.load;
   const meshes::HomogenizedCell &cell = methods.cell.cell;
-  write_ellipticity(level, resolved, methods.stiffness_of_phase, methods.phases, output);
+  write_ellipticity(level, resolved, methods.resolved, output);
   const auto distance_of = [&](const meshes::Points &positions)
   { return (positions - fine.positions).rowwise().norm(); };
   const UpsampledMethod affine    = upsampled("affine", level, methods),
@@ -290,12 +260,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const CoarseModel &model        = localized.moved->model;
   const CoarseState &coarse       = *localized.moved->state;
   write_coarse_ellipticity(level, model.mesh(), cell.stiffness, coarse.positions, output);
-  StrainErrors errors;
   const Fluctuation fluctuation =
     fluctuation_of(level, fine.positions, methods.fluctuation, output);
-  errors.fluctuation       = fluctuation.mean;
-  errors.reference_bar     = resolved.bar;
-  errors.seconds_reference = fine.seconds;
   // All methods before the first row: a level has a row of each, or is unreached.
   std::vector<UpsampledMethod> missing;
   const std::vector<std::string> distinct = distinct_methods(options.methods, level.law, load);
@@ -308,23 +274,30 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
     write_first_notes(options, level, missing, methods, output);
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, methods, model, coarse))
-      output.write_forces(row);
+      output.forces.append_if_missing(row);
   if (options.keep && !missing.empty())
     keep(options.output, level, resolved.sheet, model.mesh(), {coarse.positions, fine.positions});
-  const int n_coarse         = model.mesh().n_triangles();
   const std::string pictured = pictured_method(distinct, missing);
   for (const UpsampledMethod &of : missing)
   {
+    StrainRow row = row_of(level, of.name, resolved.sheet);
     if (of.moved == nullptr)
     {
-      output.write_without_errors(level, of.name, resolved.sheet, n_coarse);
+      output.strain.append(row);
       continue;
     }
     note_strains_outside(of, level, methods, output);
-    errors.distance = distance_of(of.positions);
-    errors.seconds  = of.seconds_coarse + of.seconds_upsample;
-    const auto bar  = resolved.error_bars.find(of.name);
-    errors.bar      = bar == resolved.error_bars.end() ? ErrorBar() : bar->second;
+    set_errors(row, distance_of(of.positions), resolved.sheet, fluctuation.mean);
+    row.uncertainty       = resolved.bar.mean;
+    row.uncertainty_max   = resolved.bar.max;
+    row.to_refined        = resolved.bar.to_refined;
+    row.seconds           = of.seconds_coarse + of.seconds_upsample;
+    row.seconds_reference = fine.seconds;
+    if (const auto bar = resolved.error_bars.find(of.name); bar != resolved.error_bars.end())
+    {
+      row.bar        = bar->second.mean;
+      row.bar_safety = bar->second.safety;
+    }
     // The row comes last: where it is there, so is all that belongs to it.
     if (of.name == pictured && has_pictures(options, load, level))
       write_pictures(options, level, resolved.sheet, model.mesh(),
@@ -332,8 +305,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
                       of.positions, affine.positions, coarse.positions});
     if (of.name == "localized")
       output.write_step(
-        level, step_of(resolved, of, fluctuation, homogenized_law(level.law, cell.stiffness)));
-    output.write_errors(level, of.name, resolved.sheet, n_coarse, errors);
+        step_of(level, resolved, of, fluctuation, homogenized_law(level.law, cell.stiffness)));
+    output.strain.append(row);
   }
   if (!load.is_periodic() && name_of(level.law) == main_reference(options.references) &&
       level.strain == compared_strain(options))

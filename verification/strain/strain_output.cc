@@ -17,11 +17,6 @@ namespace homespun::verification
 {
 namespace
 {
-StrainRow row_of(const StrainLevel &level, const std::string &method)
-{
-  return {level.cell, level.load, level.strain, name_of(level.law), method};
-}
-
 /// Means over the vertices of no cell at an edge, and over the others.
 std::pair<double, double> apart_from_edges(const Eigen::VectorXd &distance,
                                            const meshes::Sheet &sheet)
@@ -58,6 +53,23 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 }
 } // namespace
 
+LevelRow row_of(const StrainLevel &level)
+{
+  return {level.cell, level.load, name_of(level.law), level.strain};
+}
+
+StrainRow row_of(const StrainLevel &level, const std::string &method, const meshes::Sheet &sheet)
+{
+  return {level.cell,
+          level.load,
+          level.strain,
+          name_of(level.law),
+          method,
+          sheet.n1,
+          2 * sheet.n1 * sheet.n2,
+          sheet.mesh.n_triangles()};
+}
+
 void set_errors(StrainRow &row, const Eigen::VectorXd &distance, const meshes::Sheet &sheet,
                 const double fluctuation)
 {
@@ -74,16 +86,16 @@ void set_errors(StrainRow &row, const Eigen::VectorXd &distance, const meshes::S
 
 StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
-    : uncertainty(options.output)
+    : strain(options.output)
+    , levels(options.output)
+    , forces(options.output)
+    , uncertainty(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
     , checks(table_if<CrossCheckRow>(options.budget, options.output))
     , run_time(table_if<RunTimeRow>(options.run_time, options.output))
     , folder(options.output)
     , methods(options.methods)
     , tell(std::move(tell))
-    , strain(options.output)
-    , levels(options.output)
-    , forces(options.output)
 {
 }
 
@@ -97,7 +109,7 @@ bool StrainOutput::is_complete(const StrainLevel &level) const
 
 bool StrainOutput::has_errors(const StrainLevel &level, const std::string &method) const
 {
-  return strain.contains(row_of(level, method));
+  return strain.contains({level.cell, level.load, level.strain, name_of(level.law), method});
 }
 
 bool StrainOutput::is_unreached(const StrainLevel &level) const
@@ -105,31 +117,8 @@ bool StrainOutput::is_unreached(const StrainLevel &level) const
   return has_errors(level, unreached);
 }
 
-void StrainOutput::write_errors(const StrainLevel &level, const std::string &method,
-                                const meshes::Sheet &sheet, const int n_coarse_triangles,
-                                const StrainErrors &errors)
+void StrainOutput::write_step(LevelRow step)
 {
-  StrainRow row        = row_of(level, method);
-  row.cells            = sheet.n1;
-  row.coarse_triangles = n_coarse_triangles;
-  row.fine_triangles   = sheet.mesh.n_triangles();
-  set_errors(row, errors.distance, sheet, errors.fluctuation);
-  row.uncertainty       = errors.reference_bar.mean;
-  row.uncertainty_max   = errors.reference_bar.max;
-  row.to_refined        = errors.reference_bar.to_refined;
-  row.bar               = errors.bar.mean;
-  row.bar_safety        = errors.bar.safety;
-  row.seconds           = errors.seconds;
-  row.seconds_reference = errors.seconds_reference;
-  strain.append(row);
-}
-
-void StrainOutput::write_step(const StrainLevel &level, LevelRow step)
-{
-  step.cell            = level.cell;
-  step.load            = level.load;
-  step.reference       = name_of(level.law);
-  step.strain          = level.strain;
   const LevelRow known = levels.known(step);
   if (levels.contains(step) && known.is_solved())
     return;
@@ -139,23 +128,13 @@ void StrainOutput::write_step(const StrainLevel &level, LevelRow step)
 
 void StrainOutput::write_unreached(const StrainLevel &level, const meshes::Sheet &sheet)
 {
-  write_without_errors(level, unreached, sheet, 2 * sheet.n1 * sheet.n2);
-}
-
-void StrainOutput::write_without_errors(const StrainLevel &level, const std::string &method,
-                                        const meshes::Sheet &sheet, const int n_coarse_triangles)
-{
-  StrainRow row        = row_of(level, method);
-  row.cells            = sheet.n1;
-  row.coarse_triangles = n_coarse_triangles;
-  row.fine_triangles   = sheet.mesh.n_triangles();
-  strain.append(row);
+  strain.append(row_of(level, unreached, sheet));
 }
 
 void StrainOutput::write_note(const StrainLevel &level, std::string text)
 {
-  text         = text.substr(0, text.find("; residual norms"));
-  LevelRow row = levels.known({level.cell, level.load, name_of(level.law), level.strain});
+  text                                  = text.substr(0, text.find("; residual norms"));
+  LevelRow row                          = levels.known(row_of(level));
   const std::vector<std::string> before = remarks_of(row);
   if (std::find(before.begin(), before.end(), text) == before.end())
   {

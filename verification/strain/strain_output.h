@@ -28,16 +28,11 @@ struct StrainLevel
   double strain;
 };
 
-/// What is written of a method at a level.
-struct StrainErrors
-{
-  Eigen::VectorXd distance;      ///< from the reference, per fine vertex [m]
-  double fluctuation = 0.;       ///< of the reference, mean over the vertices [m]
-  ReferenceBar reference_bar;    ///< [m]
-  ErrorBar bar;                  ///< of the mean [m]
-  double seconds           = 0.; ///< of the method
-  double seconds_reference = 0.;
-};
+/// The row of a level but for its numbers.
+LevelRow row_of(const StrainLevel &level);
+
+/// The row of a method at a level, without errors.
+StrainRow row_of(const StrainLevel &level, const std::string &method, const meshes::Sheet &sheet);
 
 /// The norms of an error in a row that has the keys and sizes of the level.
 void set_errors(StrainRow &row, const Eigen::VectorXd &distance, const meshes::Sheet &sheet,
@@ -60,26 +55,8 @@ public:
 
   bool is_unreached(const StrainLevel &level) const;
 
-  void write_errors(const StrainLevel &level, const std::string &method, const meshes::Sheet &sheet,
-                    int n_coarse_triangles, const StrainErrors &errors);
-
-  /// @param step its keys are those of the level
-  void write_step(const StrainLevel &level, LevelRow step);
-
-  /// Whether the triangles of a part are elliptic at a level.
-  void write_ellipticity(const LevelRow &of_part)
-  {
-    levels.append_if_missing(of_part);
-  }
-
-  void write_forces(const ForceRow &row)
-  {
-    forces.append_if_missing(row);
-  }
-
-  /// A level at which a method alone has no equilibrium: a row without errors.
-  void write_without_errors(const StrainLevel &level, const std::string &method,
-                            const meshes::Sheet &sheet, int n_coarse_triangles);
+  /// @param step with the keys of its level; what is known of it stays
+  void write_step(LevelRow step);
 
   /// A level without equilibrium.
   void write_unreached(const StrainLevel &level, const meshes::Sheet &sheet);
@@ -93,21 +70,9 @@ public:
   /// Every note of the study, those of earlier runs too. Ready sentences.
   std::vector<std::string> notes() const;
 
-  const std::vector<StrainRow> &strain_rows() const
-  {
-    return strain.rows();
-  }
-
-  const std::vector<LevelRow> &level_rows() const
-  {
-    return levels.rows();
-  }
-
-  const std::vector<ForceRow> &force_rows() const
-  {
-    return forces.rows();
-  }
-
+  Table<StrainRow> strain;
+  Table<LevelRow> levels;
+  Table<ForceRow> forces;
   Table<UncertaintyRow> uncertainty;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
   std::unique_ptr<Table<CrossCheckRow>> checks; ///< with the budget
@@ -117,8 +82,5 @@ private:
   const std::string folder;
   const std::vector<std::string> methods;
   const std::function<void(const std::string &)> tell;
-  Table<StrainRow> strain;
-  Table<LevelRow> levels;
-  Table<ForceRow> forces;
 };
 } // namespace homespun::verification

@@ -16,9 +16,8 @@
 #include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
-#include "verification/strain/claims/owed_claims.h"
 #include "verification/strain/claims/self_checks.h"
-#include "verification/strain/claims/study_verdicts.h"
+#include "verification/strain/claims/study_claims.h"
 #include "verification/strain/kept_positions.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/run_time.h"
@@ -157,13 +156,7 @@ private:
                          [&](const std::string &what) {
                            progress.begin(cell.name + ", " + load.name + ", run times: " + what);
                          });
-        on_root(communicator,
-                [&]()
-                {
-                  if (!fault.empty())
-                    output->write_note({cell.name, load.name, of_run.law, of_run.strain},
-                                       "run times: " + fault);
-                });
+        note({cell.name, load.name, of_run.law, of_run.strain}, "run times: ", fault);
         return;
       }
   }
@@ -244,7 +237,12 @@ private:
   bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                     const meshes::Sheet &sheet, const Load &load)
   {
-    if (!has_budget(options, load) || !budget->is_missing(cell.name, load.name, options.strains))
+    const auto is_missing = [&](const double strain) {
+      return budget->row_is_missing({cell.name, load.name, budget->law_of_budget, strain});
+    };
+    if (!has_budget(options, load) ||
+        !answer_of_root(std::any_of(options.strains.begin(), options.strains.end(), is_missing),
+                        communicator))
       return false;
     progress.begin(cell.name + ", " + load.name +
                    ": the sheet by a second code, for the error budget");
@@ -255,14 +253,8 @@ private:
     }
     catch (const meshes::NotConverged &failure)
     {
-      const std::string why = failure.what();
-      on_root(communicator,
-              [&]()
-              {
-                output->write_note(
-                  {cell.name, load.name, budget->law_of_budget, options.strains.front()},
-                  "no error budget of this load; " + why);
-              });
+      note({cell.name, load.name, budget->law_of_budget, options.strains.front()},
+           "no error budget of this load; ", failure.what());
       return false;
     }
   }
@@ -277,7 +269,7 @@ private:
         const StrainLevel level = {cell.name, load.name, law, options.strains[k]};
         is_missing[k]           = !output->is_complete(level) ||
                         (has_budget(options, load) && !output->is_unreached(level) &&
-                         budget->row_is_missing(cell.name, load.name, law, options.strains[k]));
+                         budget->row_is_missing(level));
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
     std::vector<double> missing;
@@ -290,12 +282,11 @@ private:
   bool is_unreached_below(const UnitCell &cell, const Load &load, const Law law,
                           const double strain) const
   {
-    int answer = 0;
-    if (is_root)
-      for (const double lower : options.strains)
-        if (lower < strain && output->is_unreached({cell.name, load.name, law, lower}))
-          answer = 1;
-    return answer_of_root(answer == 1, communicator);
+    const auto is_one = [&](const double lower) {
+      return lower < strain && output->is_unreached({cell.name, load.name, law, lower});
+    };
+    return answer_of_root(
+      is_root && std::any_of(options.strains.begin(), options.strains.end(), is_one), communicator);
   }
 
   /// @return whether both found an equilibrium, from which the next level may start
@@ -325,7 +316,7 @@ private:
         output->write_note(level, note);
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
-    int is_solved = 0;
+    bool is_solved = false;
     on_root(communicator,
             [&]()
             {
@@ -340,7 +331,7 @@ private:
                                                 seconds_stability,
                                                 of.uncertainty.of_errors(law, strain)};
                 solved    = compare_methods(options, level, resolved, of.methods, *output);
-                is_solved = 1;
+                is_solved = true;
               }
               catch (const meshes::NotConverged &failure)
               {
@@ -349,18 +340,22 @@ private:
                 output->write_unreached(level, of.sheet);
               }
             });
-    MPI_Bcast(&is_solved, 1, MPI_INT, 0, communicator);
-    if (is_solved && of.has_budget && budget->is_missing(of.cell.name, of.load.name, law, strain))
-    {
-      const std::string fault = budget->measure(law, strain, fine.positions, of.reference, solved);
-      on_root(communicator,
-              [&]()
-              {
-                if (!fault.empty())
-                  output->write_note(level, "error budget: " + fault);
-              });
-    }
-    return is_solved == 1;
+    is_solved = answer_of_root(is_solved, communicator);
+    if (is_solved && of.has_budget && answer_of_root(budget->row_is_missing(level), communicator))
+      note(level,
+           "error budget: ", budget->measure(law, strain, fine.positions, of.reference, solved));
+    return is_solved;
+  }
+
+  /// A remark on a level, unless the first rank has none.
+  void note(const StrainLevel &level, const std::string &what, const std::string &text)
+  {
+    on_root(communicator,
+            [&]()
+            {
+              if (!text.empty())
+                output->write_note(level, what + text);
+            });
   }
 
   StudyDescription conclude() override
@@ -368,14 +363,14 @@ private:
     add(study_verdicts(*output, options));
     output->write_gains();
     std::vector<std::string> notes = notes_on_references(asked, cells());
-    const auto note                = [&](const std::vector<std::string> &more)
+    const auto add_notes           = [&](const std::vector<std::string> &more)
     { notes.insert(notes.end(), more.begin(), more.end()); };
     for (const UnitCell &cell : cells())
-      note(notes_on_yarns(cell, options_of(asked, cell).references));
-    note(output->notes());
+      add_notes(notes_on_yarns(cell, options_of(asked, cell).references));
+    add_notes(output->notes());
     if (options.budget)
-      note(budget_notes(output->strain_rows(), output->budget->rows()));
-    return describe(options, {output->strain_rows(), output->level_rows(), notes},
+      add_notes(budget_notes(output->strain.rows(), output->budget->rows()));
+    return describe(options, {output->strain.rows(), output->levels.rows(), notes},
                     {peak_memory, largest_residual});
   }
 

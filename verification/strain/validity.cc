@@ -4,6 +4,7 @@
 #include "verification/method/method.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/gains.h"
+#include "verification/strain/strain_cases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,19 +151,17 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
                                        const std::vector<LevelRow> &levels)
 {
   const std::vector<StrainRow> all = with_bases(given);
-  const auto same_case             = [](const StrainRow &a, const StrainRow &b)
-  { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
-  const auto is_judged = [&](const StrainRow &row)
+  const auto is_judged             = [&](const StrainRow &row)
   {
     return row.method == "localized" || row.method == base_method ||
            row.method == main_method(given, row);
   };
   std::vector<StrainRow> cases; // and their methods
   for (const StrainRow &row : all)
-    if (is_judged(row) && std::none_of(cases.begin(), cases.end(),
-                                       [&](const StrainRow &known) {
-                                         return same_case(known, row) && known.method == row.method;
-                                       }))
+    if (is_judged(row) &&
+        std::none_of(cases.begin(), cases.end(),
+                     [&](const StrainRow &known)
+                     { return is_of_case(known, row) && known.method == row.method; }))
       cases.push_back(row);
   struct Measure
   {
@@ -179,7 +178,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
     std::vector<StrainRow> of_case;
     double first_unreached = std::numeric_limits<double>::infinity();
     for (const StrainRow &row : all)
-      if (same_case(row, one))
+      if (is_of_case(row, one))
       {
         if (!row.is_reached())
           first_unreached = std::min(first_unreached, row.strain);

@@ -66,8 +66,9 @@ double error_of(const homogenization::UnitCell &cell, const CellLadder &ladder,
   FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
   reference.start(load, Law::linear);
   const meshes::Points fine = reference.advance(any_strain).positions;
-  DiscretizedMethods methods(ladder[discretization], sheet, load, no_modes);
-  return (methods.at(method, Law::linear, any_strain) - fine).rowwise().norm().mean();
+  MovedMethods methods      = {ladder[discretization].model(), sheet, load};
+  MovedModel &its           = methods.at(Law::linear, method);
+  return (its.model.upsample(its.move(any_strain)) - fine).rowwise().norm().mean();
 }
 } // namespace
 

@@ -69,7 +69,7 @@ Rows rows_of(const double contrast, const int n_cells)
                      bars},
                     methods, output);
   }
-  return output.strain_rows();
+  return output.strain.rows();
 }
 
 std::vector<GainRow> gains_of_full(const Rows &rows)

@@ -107,15 +107,15 @@ TEST(exact_level_ellipticity, a_pulled_cloth_of_one_phase_is_lost_where_theory_s
       const StrainLevel level = {cell.name, load.name, law, strain};
       ReferenceStep fine;
       fine.positions = pulled(sheet.mesh.vertices, strain);
-      write_ellipticity(level, {sheet, fine, 0, 1, {}, Stability::every_triangle, 0.},
-                        cell.stiffness_of_phase(), {"yarn"}, output);
+      write_ellipticity(level, {sheet, fine, 0, 1, {}, Stability::every_triangle, 0.}, cell,
+                        output);
       write_coarse_ellipticity(level, coarse, as_one.stiffness, pulled(coarse.vertices, strain),
                                output);
     }
   // The numerator of the closed form is linear in strain, its square of stretches is not:
   // 2 % of curvature over 0.002 of strain.
   std::vector<LevelRow> rows; // beside those of the levels, which have the notes
-  for (const LevelRow &row : output.level_rows())
+  for (const LevelRow &row : output.levels.rows())
     if (!row.part.empty())
       rows.push_back(row);
   EXPECT_EQ(rows.size(), 18u); // linear has none to lose

@@ -63,7 +63,7 @@ struct Level
     fine.positions.rowwise() += away;
     compare_methods(options, {cell.name, load.name, Law::biot, small_strain},
                     {sheet, fine, 0, 1, {}, Stability::every_triangle, 0.}, methods, output);
-    rows = output.strain_rows();
+    rows = output.strain.rows();
   }
 
   const homogenization::UnitCell cell;

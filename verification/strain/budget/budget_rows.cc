@@ -29,18 +29,22 @@ std::vector<int> regions_of(const meshes::Sheet &sheet, const bool is_periodic)
   return regions;
 }
 
+double strain_nearest_to(const double wanted, const std::vector<double> &strains)
+{
+  const auto distance = [&](const double strain) { return std::abs(std::log(strain / wanted)); };
+  return *std::min_element(strains.begin(), strains.end(),
+                           [&](const double a, const double b)
+                           { return distance(a) < distance(b); });
+}
+
 std::vector<double> judged_strains(const std::vector<double> &strains)
 {
   std::vector<double> judged;
   for (const double wanted : {0.01, 0.1})
-  {
-    const auto distance = [&](const double strain) { return std::abs(std::log(strain / wanted)); };
-    const auto nearest =
-      std::min_element(strains.begin(), strains.end(),
-                       [&](const double a, const double b) { return distance(a) < distance(b); });
-    if (nearest != strains.end() && distance(*nearest) < std::log(1.5))
-      judged.push_back(*nearest);
-  }
+    if (!strains.empty())
+      if (const double nearest = strain_nearest_to(wanted, strains);
+          std::abs(std::log(nearest / wanted)) < std::log(1.5))
+        judged.push_back(nearest);
   return judged;
 }
 

@@ -26,6 +26,9 @@ const std::vector<std::string> &budget_regions();
 /// distance of two edges.
 std::vector<int> regions_of(const meshes::Sheet &sheet, bool is_periodic);
 
+/// The level nearest to a strain, by their ratio; there is one.
+double strain_nearest_to(double wanted, const std::vector<double> &strains);
+
 /// The levels of a study at which budgets are judged: those nearest to 1 % and to 10 %, within a
 /// factor of 1.5.
 std::vector<double> judged_strains(const std::vector<double> &strains);

@@ -27,29 +27,11 @@ BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
 {
 }
 
-bool BudgetStudy::row_is_missing(const std::string &cell_name, const std::string &load,
-                                 const Law law, const double strain) const
+bool BudgetStudy::row_is_missing(const StrainLevel &level) const
 {
-  return table != nullptr && law == law_of_budget &&
-         !table->contains({cell_name, load, strain, name_of(law), "total", "all"});
-}
-
-bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &load, const Law law,
-                             const double strain) const
-{
-  int answer = row_is_missing(cell_name, load, law, strain);
-  MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
-  return answer == 1;
-}
-
-bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &load,
-                             const std::vector<double> &strains) const
-{
-  int answer = std::any_of(strains.begin(), strains.end(),
-                           [&](const double strain)
-                           { return row_is_missing(cell_name, load, law_of_budget, strain); });
-  MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
-  return answer == 1;
+  return table != nullptr && level.law == law_of_budget &&
+         !table->contains(
+           {level.cell, level.load, level.strain, name_of(level.law), "total", "all"});
 }
 
 void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,

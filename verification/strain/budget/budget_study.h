@@ -6,6 +6,7 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget/budget_rows.h"
 #include "verification/strain/budget/error_budget.h"
+#include "verification/strain/strain_output.h"
 
 #include <mpi.h>
 
@@ -35,16 +36,7 @@ public:
 
   /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees
   /// it.
-  bool row_is_missing(const std::string &cell, const std::string &load, Law law,
-                      double strain) const;
-
-  /// The same, told to every rank.
-  bool is_missing(const std::string &cell, const std::string &load, Law law, double strain) const;
-
-  /// Whether the budget of any level of a load is asked for and not yet in the table, told to every
-  /// rank.
-  bool is_missing(const std::string &cell, const std::string &load,
-                  const std::vector<double> &strains) const;
+  bool row_is_missing(const StrainLevel &level) const;
 
   /// Solves the sheet in linear theory by the second code, lays out the P2 reference, and at the
   /// first load of a cell homogenizes it in the further ways that the budget compares.

@@ -8,29 +8,35 @@
 #include "verification/reference/loads.h"
 #include "verification/strain/budget/second_code.h"
 #include "verification/strain/claims/strain_verdicts.h"
+#include "verification/strain/strain_cases.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
+#include <set>
+#include <utility>
 
 namespace homespun::verification
 {
 namespace
 {
-/// A level of a budget, without a part.
-BudgetRow level_of(const StrainRow &row)
+template <typename Row>
+bool is_of_level(const Row &row, const BudgetRow &level)
 {
-  return {row.cell, row.load, row.strain, row.reference};
+  return is_of_case(row, level) && row.strain == level.strain;
+}
+
+Words words_of(const BudgetRow &level)
+{
+  return {{"cell", level.cell}, {"load", level.load}, {"percent", 100. * level.strain}};
 }
 
 /// Mean of a part over the whole sheet, per cell side; NaN where the row is not there.
 double mean_of(const std::vector<BudgetRow> &rows, const BudgetRow &level, const std::string &part)
 {
   for (const BudgetRow &row : rows)
-    if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
-        row.reference == level.reference && row.part == part && row.region == "all")
+    if (is_of_level(row, level) && row.part == part && row.region == "all")
       return row.per_cell;
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -39,8 +45,7 @@ double mean_of(const std::vector<BudgetRow> &rows, const BudgetRow &level, const
 double bar_of(const std::vector<StrainRow> &rows, const BudgetRow &level)
 {
   for (const StrainRow &row : rows)
-    if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
-        row.reference == level.reference && row.mean > 0.)
+    if (is_of_level(row, level) && row.mean > 0.)
       return row.uncertainty / row.mean * row.per_cell;
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -88,9 +93,8 @@ std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &lev
 void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
                  const double bar_of_reference, std::vector<Verdict> &verdicts)
 {
-  const Words words = {
-    {"cell", level.cell}, {"load", level.load}, {"percent", 100. * level.strain}};
-  const auto with = [&](const char *name, const Word &word)
+  const Words words = words_of(level);
+  const auto with   = [&](const char *name, const Word &word)
   {
     Words all = words;
     all.emplace(name, word);
@@ -196,26 +200,17 @@ void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
 std::vector<std::pair<BudgetRow, std::vector<double>>>
 budgeted_cases(const std::vector<StrainRow> &strain_rows)
 {
-  std::map<std::string, std::string> reference_of; // of each cell
-  for (const StrainRow &row : strain_rows)
-    if (reference_of.count(row.cell) == 0)
-      reference_of[row.cell] = main_reference(strain_rows, row.cell);
   std::vector<std::pair<BudgetRow, std::vector<double>>> cases;
-  for (const StrainRow &row : strain_rows)
-    if (row.reference == reference_of[row.cell])
+  for (const StrainRow &of_case : cases_of(strain_rows))
+    if (of_case.reference == main_reference(strain_rows, of_case.cell))
     {
-      auto known = std::find_if(
-        cases.begin(), cases.end(),
-        [&](const auto &one) { return one.first.cell == row.cell && one.first.load == row.load; });
-      if (known == cases.end())
-        known = cases.insert(cases.end(), {level_of(row), {}});
-      known->second.push_back(row.strain);
+      std::set<double> strains;
+      for (const StrainRow &row : strain_rows)
+        if (is_of_case(row, of_case))
+          strains.insert(row.strain);
+      cases.push_back({{of_case.cell, of_case.load, of_case.strain, of_case.reference},
+                       {strains.begin(), strains.end()}});
     }
-  for (auto &[level, strains] : cases)
-  {
-    std::sort(strains.begin(), strains.end());
-    strains.erase(std::unique(strains.begin(), strains.end()), strains.end());
-  }
   return cases;
 }
 
@@ -261,18 +256,11 @@ std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &stra
     {
       for (const StrainRow &row : strain_rows)
         for (const BudgetRow &budget : budget_rows)
-          if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
-              row.reference == level.reference && row.method == "localized" &&
-              budget.cell == level.cell && budget.load == level.load &&
-              budget.strain == level.strain && budget.reference == level.reference &&
+          if (is_of_level(row, level) && row.method == "localized" && is_of_level(budget, level) &&
               budget.part == "total" && budget.region == "all")
-          {
-            const double difference = std::abs(row.per_cell - budget.per_cell) / level.strain;
-            verdicts.push_back(at_most(
-              "budget-of-strain-csv",
-              {{"cell", level.cell}, {"load", level.load}, {"percent", 100. * level.strain}},
-              difference, solved_to));
-          }
+            verdicts.push_back(at_most("budget-of-strain-csv", words_of(level),
+                                       std::abs(row.per_cell - budget.per_cell) / level.strain,
+                                       solved_to));
     });
   return verdicts;
 }

@@ -7,39 +7,23 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/gains.h"
+#include "verification/strain/strain_cases.h"
 #include "verification/strain/validity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace homespun::verification
 {
 namespace
 {
-/// What rows of one case have in common.
-bool is_of_case(const StrainRow &row, const StrainRow &of_case)
-{
-  return row.cell == of_case.cell && row.load == of_case.load && row.reference == of_case.reference;
-}
-
-Words words_of(const StrainRow &of_case)
+template <typename Row>
+Words words_of(const Row &of_case)
 {
   return {{"cell", of_case.cell}, {"load", of_case.load}, {"reference", of_case.reference}};
-}
-
-/// Cells, loads and references in the order of the rows.
-std::vector<StrainRow> cases_of(const std::vector<StrainRow> &rows)
-{
-  std::vector<StrainRow> cases;
-  for (const StrainRow &row : rows)
-    if (std::none_of(cases.begin(), cases.end(),
-                     [&](const StrainRow &known) { return is_of_case(row, known); }))
-      cases.push_back(row);
-  return cases;
 }
 
 /// The rows up to where the law of their case is lost: beyond, no minimum need exist, and what was
@@ -298,20 +282,18 @@ std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
 
 std::vector<Verdict> stability_verdicts(const std::vector<LevelRow> &all)
 {
+  std::vector<LevelRow> solved;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(solved),
+               [](const LevelRow &row)
+               { return row.is_solved() && row.reference != name_of(Law::linear); });
   std::vector<Verdict> verdicts;
-  std::set<std::vector<std::string>> seen;
-  for (const LevelRow &of_case : all)
+  for (const LevelRow &of_case : cases_of(solved))
   {
-    const std::vector<std::string> key = {of_case.cell, of_case.load, of_case.reference};
-    if (!of_case.is_solved() || of_case.reference == name_of(Law::linear) ||
-        !seen.insert(key).second)
-      continue;
     const double lost = elliptic_up_to(all, of_case.cell, of_case.load, of_case.reference);
     int n_levels = 0, n_not = 0;
     std::string which;
-    for (const LevelRow &step : all)
-      if (step.is_solved() && !(step.strain > lost) &&
-          std::vector<std::string>{step.cell, step.load, step.reference} == key)
+    for (const LevelRow &step : solved)
+      if (is_of_case(step, of_case) && !(step.strain > lost))
       {
         ++n_levels;
         if (step.stability != name_of(Stability::every_triangle) &&
@@ -322,17 +304,15 @@ std::vector<Verdict> stability_verdicts(const std::vector<LevelRow> &all)
           which += (which.empty() ? "; " : ", ") + short_text(100. * step.strain) + " %";
         }
       }
-    Words words = {{"cell", of_case.cell},
-                   {"load", of_case.load},
-                   {"reference", of_case.reference},
-                   {"levels", n_levels},
-                   {"note", which}};
-    for (const Verdict &verdict :
-         n_levels == 0
-           ? open_by_loss("minimum", words, lost)
-           : std::vector<Verdict>{
-               judged("minimum", words, n_not == 0 ? Outcome::pass : Outcome::inconclusive, n_not)})
-      verdicts.push_back(verdict);
+    Words words     = words_of(of_case);
+    words["levels"] = n_levels;
+    words["note"]   = which;
+    if (n_levels > 0)
+      verdicts.push_back(
+        judged("minimum", words, n_not == 0 ? Outcome::pass : Outcome::inconclusive, n_not));
+    else
+      for (const Verdict &verdict : open_by_loss("minimum", words, lost))
+        verdicts.push_back(verdict);
   }
   return verdicts;
 }

@@ -5,6 +5,7 @@
 #include "verification/record/claim.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/claims/strain_verdicts.h"
+#include "verification/strain/strain_cases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,18 +19,17 @@ namespace
 /// Rounding of sums over a million vertices.
 constexpr double rounding = 1e-12;
 
-/// Cell and load of rows in linear theory on a sheet, in the order of the rows.
+/// The first row of every case in linear theory on a sheet.
 template <typename Row>
-std::vector<std::pair<std::string, std::string>> linear_sheets_of(const std::vector<Row> &rows)
+std::vector<Row> linear_sheets_of(const std::vector<Row> &rows)
 {
-  std::vector<std::pair<std::string, std::string>> all;
-  for (const Row &row : rows)
-  {
-    const std::pair<std::string, std::string> one = {row.cell, row.load};
-    if (row.reference == name_of(Law::linear) && !Load(row.load).is_periodic() &&
-        std::find(all.begin(), all.end(), one) == all.end())
-      all.push_back(one);
-  }
+  std::vector<Row> all = cases_of(rows);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Row &row) {
+                             return row.reference != name_of(Law::linear) ||
+                                    Load(row.load).is_periodic();
+                           }),
+            all.end());
   return all;
 }
 } // namespace
@@ -49,12 +49,11 @@ Verdict verdict_of_norms(const std::vector<StrainRow> &rows)
 std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow> &rows)
 {
   std::vector<Verdict> verdicts;
-  for (const auto &[cell, load] : linear_sheets_of(rows))
+  for (const auto &of_case : linear_sheets_of(rows))
   {
     double least = std::numeric_limits<double>::infinity(), most = 0., misfit = 0.;
     for (const UncertaintyRow &row : rows)
-      if (row.cell == cell && row.load == load && row.reference == name_of(Law::linear) &&
-          std::isfinite(row.force_p1_to_refined))
+      if (is_of_case(row, of_case) && std::isfinite(row.force_p1_to_refined))
       {
         least  = std::min({least, row.force_p1_to_p2, row.force_p2_to_refined});
         most   = larger(most, row.force_p1_to_refined);
@@ -64,10 +63,10 @@ std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow>
     if (most <= solved_to)
       continue; // nothing was measured, or P1 is exact
     // Distances of three numbers on a line add up only where the middle one lies between.
-    verdicts.push_back(
-      judged("nested-forces", {{"cell", cell}, {"load", load}, {"least", solved_to}},
-             least > solved_to && misfit <= 2. * solved_to ? Outcome::pass : Outcome::fail,
-             misfit <= 2. * solved_to ? least : -misfit));
+    verdicts.push_back(judged(
+      "nested-forces", {{"cell", of_case.cell}, {"load", of_case.load}, {"least", solved_to}},
+      least > solved_to && misfit <= 2. * solved_to ? Outcome::pass : Outcome::fail,
+      misfit <= 2. * solved_to ? least : -misfit));
   }
   return verdicts;
 }
@@ -75,11 +74,11 @@ std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow>
 std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
 {
   std::vector<Verdict> verdicts;
-  for (const auto &[cell, load] : linear_sheets_of(rows))
+  for (const auto &of_case : linear_sheets_of(rows))
   {
     std::map<double, std::pair<double, double>> of_strain; // resolved, affine
     for (const ForceRow &row : rows)
-      if (row.cell == cell && row.load == load && row.reference == name_of(Law::linear))
+      if (is_of_case(row, of_case))
       {
         if (row.method == "resolved")
           of_strain[row.strain].first = row.per_width;
@@ -98,7 +97,7 @@ std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
       }
     if (is_known)
       verdicts.push_back(
-        judged("force-of-reference", {{"cell", cell}, {"load", load}},
+        judged("force-of-reference", {{"cell", of_case.cell}, {"load", of_case.load}},
                worst > 0. && worst <= 1. + 10. * solved_to ? Outcome::pass : Outcome::fail, worst));
   }
   return verdicts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What vanishes from a strain study is noticed: made-up rows of a whole study, and faults in them.
-#include "verification/strain/claims/owed_claims.h"
+#include "verification/strain/claims/study_claims.h"
 
 #include "verification/strain/claims/strain_verdicts.h"
 

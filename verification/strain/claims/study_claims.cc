@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "verification/strain/claims/owed_claims.h"
+#include "verification/strain/claims/study_claims.h"
 
 #include "verification/cell/study_of_cells.h"
 #include "verification/law/laws.h"
 #include "verification/method/method.h"
 #include "verification/record/main_reference.h"
 #include "verification/strain/budget/budget_rows.h"
+#include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
+#include "verification/strain/claims/budget_verdicts.h"
 #include "verification/strain/claims/strain_verdicts.h"
+#include "verification/strain/claims/table_verdicts.h"
 #include "verification/strain/gains.h"
 
 #include <algorithm>
@@ -102,5 +105,31 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
   for (const char *id : {"norms", "read-back"})
     owed.push_back({id, {}});
   return owed;
+}
+
+std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStudyOptions &options)
+{
+  std::vector<Verdict> verdicts =
+    strain_verdicts(output.strain.rows(), options.strains, output.levels.rows(), options.methods);
+  const auto add = [&](const std::vector<Verdict> &some)
+  { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
+  add(stability_verdicts(output.levels.rows()));
+  if (options.budget)
+  {
+    const std::vector<BudgetRow> &rows = output.budget->rows();
+    std::vector<StrainRow> with_budget;
+    for (const StrainRow &row : output.strain.rows())
+      if (has_budget(options, Load(row.load)))
+        with_budget.push_back(row);
+    add(budget_verdicts(with_budget, rows, options.strains));
+    add(error_agreement_verdicts(with_budget, rows));
+    add(second_code_verdicts(output.checks->rows()));
+    add(energy_verdicts(output.checks->rows()));
+  }
+  add(verdicts_of_nested_forces(output.uncertainty.rows()));
+  add(verdicts_of_forces(output.forces.rows()));
+  add({verdict_of_norms(output.strain.rows()),
+       verdict_of_reading(output.strain.rows(), options.output)});
+  return verdicts;
 }
 } // namespace homespun::verification
