@@ -13,7 +13,7 @@ from unittest import mock
 
 import report_path  # noqa: F401
 import report
-from figures import animation, cloth, plot_data
+from figures import animation, cloth
 from made_up_run import list_again, write_table
 from page import gallery
 
@@ -26,19 +26,22 @@ def draw_small_cloth(add_cleanup):
         add_cleanup(small.stop)
 
 
-def draw_alone(add_cleanup):
-    """Figures are drawn and not saved until the cleanup, and are empty pictures on the page: for
-    pages whose figures another test saves, made of the same results. Laying a figure out and
-    writing it takes nine tenths of the time of a page.
+@contextlib.contextmanager
+def drawn_alone(saved):
+    """All figures are drawn and their numbers written; pictures of those named alone are laid out
+    and saved, which takes nine tenths of the time of a page. All by this process.
     """
+    save_picture = gallery.Gallery.save_picture
 
-    def save(_, figure, name, as_image, table, plotted):
-        panels = None if as_image or not plotted else plot_data.panels_of(figure)
-        return f"data:image/svg+xml,{name}", 400, (), gallery.in_page(panels)
+    def save(its, figure, name, as_image):
+        if name in saved:
+            return save_picture(its, figure, name, as_image)
+        return f"data:image/svg+xml,{name}", 400
 
-    drawn = mock.patch.object(gallery.Gallery, "save", save)
-    drawn.start()
-    add_cleanup(drawn.stop)
+    with mock.patch.object(gallery.Gallery, "save_picture", save), mock.patch.object(
+        os, "sched_getaffinity", return_value={0}
+    ):
+        yield
 
 
 class PageTest(unittest.TestCase):
@@ -49,7 +52,18 @@ class PageTest(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.place)
         self.folder, self.output = (os.path.join(self.place, name) for name in ("results", "out"))
 
-    def run_report(self, *folders):
+    def run_report(self, *folders, saved=()):
+        """(exit status, text on stderr) of a page for those who read it.
+
+        @param saved names of figures whose pictures are wanted, too; other tests save the others
+        """
+        with drawn_alone(saved):
+            found = self.whole_report(*folders)
+        files = [os.path.join(self.output, "figures", f"{name}.svg") for name in saved]
+        self.assertEqual([file for file in files if not os.path.isfile(file)], [])
+        return found
+
+    def whole_report(self, *folders):
         """(exit status, text on stderr)"""
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
@@ -100,3 +114,18 @@ class PageTest(unittest.TestCase):
         for word in words:
             self.assertIn(word, errors)
         self.assertFalse(os.path.exists(self.output))
+
+
+class OnePageTest(PageTest):
+    """One page for all tests of a class, with all pictures, of the folders that `made` returns."""
+
+    @classmethod
+    def setUpClass(cls):
+        case = cls("made")
+        PageTest.setUp(case)
+        cls.addClassCleanup(case.doCleanups)
+        case.assertEqual(case.whole_report(*case.made()), (0, ""))
+        cls.text, cls.made_in = case.page(), case.output
+
+    def setUp(self):
+        """The page is there."""

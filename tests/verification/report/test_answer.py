@@ -17,7 +17,7 @@ from page import answer, entries
 from page.answer_pictures import sheet_of_answer
 from page.glossary import GLOSSARY
 from page.run_contents import self_tests
-from page_case import PageTest, draw_alone
+from page_case import OnePageTest, PageTest
 from read.cell_results import Cell
 from read.results import read_results
 from read.schema import main_method
@@ -167,17 +167,19 @@ class SentenceTest(unittest.TestCase):
             self.assertEqual(answer.share(value), text)
 
 
+def write_answered(test):
+    """Results with a budget and without a picture of the sheet."""
+    write_results(test.folder)
+    write_budget(test.folder)
+    test.remove("stripes/fields-shear-frame.h5")
+
+
 class AnswerPageTest(PageTest):
     def setUp(self):
         super().setUp()
-        write_results(self.folder)
-        write_budget(self.folder)
-        list_again(self.folder)
-        os.remove(os.path.join(self.folder, "stripes", "fields-shear-frame.h5"))
-        list_again(self.folder)
+        write_answered(self)
 
     def test_the_answer_comes_first_and_words_are_explained(self):
-        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         first = page[page.index("<h1>") : page.index("<nav")]
@@ -223,7 +225,6 @@ class AnswerPageTest(PageTest):
         self.assertIsNone(sheet_of_answer(Cell("stripes"), [], Shown()))
 
     def test_a_cell_without_a_study_answers_with_its_stiffness(self):
-        draw_alone(self.addCleanup)
         alone = os.path.join(self.place, "homogenize")
         os.rename(os.path.join(self.folder, "stripes"), alone)
         write_run(alone, "homogenize")
@@ -240,7 +241,6 @@ class AnswerPageTest(PageTest):
         self.assertIn('id="stiffness"', page)
 
     def test_a_cell_that_is_not_cut_as_it_is_drawn_says_so_on_the_first_screen(self):
-        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(), (0, ""))
         self.assertNotIn("The cell is not the one that is drawn", self.page())
         path = os.path.join(self.folder, "stripes", "homogenize.json")
@@ -305,9 +305,16 @@ class AnswerPageTest(PageTest):
             self.assertEqual(told["link"], "../../verify/report.html" if is_linked else "")
             self.assertEqual("made once by `homespun verify`" in told["sentence"], not is_linked)
 
-    @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
+
+@unittest.skipUnless(browser.CHROMIUM, "needs chromium")
+class ShownAnswerTest(OnePageTest):
+    """The page as browsers show it."""
+
+    def made(self):
+        write_answered(self)
+        return [self.folder]
+
     def test_the_answer_is_on_the_first_screen_and_the_page_is_short_until_it_is_opened(self):
-        self.assertEqual(self.run_report(), (0, ""))
         script = """when((page) => page.querySelector("main h1"), (page) => {
           const top = (id) => page.getElementById(id).getBoundingClientRect().top;
           const bottom = (id) => page.getElementById(id).getBoundingClientRect().bottom;
@@ -321,16 +328,14 @@ class AnswerPageTest(PageTest):
           page.defaultView.location.hash = "#provenance";
           setTimeout(() => send({ answer, height, folds, ground,
             open: page.getElementById("provenance").closest("details").open }), 500); });"""
-        found, _ = browser.ask(self.output, "report.html", script, width=1280)
+        found, _ = browser.ask(self.made_in, "report.html", script, width=1280)
         self.assertLess(max(found["answer"]), 900)
         self.assertLess(found["height"], 12 * 900)
         self.assertGreater(found["folds"], 5)
         self.assertEqual(found["ground"], "rgba(0, 0, 0, 0)")  # what is open can be read
         self.assertTrue(found["open"])  # a link opens what it leads to
 
-    @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
     def test_on_a_phone_nothing_is_covered_hidden_or_cut_and_figures_are_framed_when_it_is_dark(self):
-        self.assertEqual(self.run_report(), (0, ""))
         script = """when((page) => page.querySelector("button.theme"), (page, their) => {
           const box = (one) => page.querySelector(one).getBoundingClientRect();
           const style = (one) => their.getComputedStyle(page.querySelector(one));
@@ -343,7 +348,7 @@ class AnswerPageTest(PageTest):
             names: their.getComputedStyle(page.querySelector(".lines td:last-child"), "::before").content,
             links: nav.scrollHeight <= nav.clientHeight + 1, wide: page.documentElement.scrollWidth,
             frame: style("#stripes-answer img").padding }); });"""
-        found, _ = browser.ask(self.output, "report.html?theme=dark", script, width=390)
+        found, _ = browser.ask(self.made_in, "report.html?theme=dark", script, width=390)
         self.assertTrue(found["apart"] and found["links"], found)
         self.assertEqual((found["position"], found["row"]), ("absolute", "block"))  # scrolls away
         self.assertIn("up to a strain of", found["names"])

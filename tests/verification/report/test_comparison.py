@@ -15,7 +15,7 @@ from made_up_study import write_results
 from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
 from page.differences import difference, differences
 from page.entries import entry_texts
-from page_case import PageTest, draw_alone
+from page_case import PageTest
 from read import results, runs, versions
 from read.results import read_results
 
@@ -60,7 +60,8 @@ class ComparisonTest(PageTest):
             changes=claim
             + [("verdicts.json", "PASS", "FAIL"), ("stripes/homogenize.json", "2839.91", "2900.0")],
         )
-        self.assertEqual(self.run_report(one, two), (0, ""))
+        figures = [f"comparison-{name}" for name in ("error-strain", "moduli", "cells")]
+        self.assertEqual(self.run_report(one, two, saved=figures), (0, ""))
         page = self.page()
         start = page.index('<h2 id="comparison">')
         claims = page.index('<h2 id="verdicts">')
@@ -73,8 +74,8 @@ class ComparisonTest(PageTest):
         rows = re.findall(r"<tr><td>([^<]*)</td>", section[: section.index("The same, to the bars")])
         self.assertEqual(rows, [])
         self.assertIn("C11, C22", section)
-        for name in ("error-strain", "moduli", "cells"):
-            self.assertIn(f'id="comparison-{name}"', section)
+        for name in figures:
+            self.assertIn(f'id="{name}"', section)
         # Each claim once, a column a run.
         listed = page[claims : page.index("<h2", claims + 4)]
         self.assertEqual(listed.count("…: slope 2"), 1)
@@ -194,7 +195,6 @@ class ComparisonTest(PageTest):
         self.assertEqual(shown(paper), [("strip-1", ["2 %"])])
 
     def test_one_cell_is_not_compared(self):
-        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))
         self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
 
@@ -306,7 +306,6 @@ class ComparisonTest(PageTest):
         )
 
     def test_a_page_of_several_runs_says_which_and_that_their_revisions_differ(self):
-        draw_alone(self.addCleanup)
         one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
         self.assertEqual(self.run_report(one, two), (0, ""))
         page = self.page()

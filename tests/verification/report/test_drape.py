@@ -27,7 +27,7 @@ class DrapePageTest(PageTest):
 
     def test_complete_scene_makes_every_section_figure_and_link(self):
         write_drape(self.folder)
-        self.assertEqual(self.run_report(), (0, ""))
+        self.assertEqual(self.whole_report(), (0, ""))
         page = self.page()
         sections = (
             "drape-short",
@@ -152,7 +152,7 @@ class DrapePageTest(PageTest):
             frame = vtu.read_vtu(os.path.join(path, name))
             write_vtu(os.path.join(path, name), frame.points, frame.triangles)
         list_again(self.folder)
-        self.assertEqual(self.run_report(), (0, ""))
+        self.assertEqual(self.run_report(saved=["swing-layered-cloth"]), (0, ""))
         self.assertIn('id="swing-layered-cloth"', self.page())
 
     def test_report_of_a_strain_study_two_scenes_and_stress_cases_is_one_page(self):
@@ -171,9 +171,9 @@ class DrapePageTest(PageTest):
 
     def test_the_same_results_give_the_same_page(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1], frames=2)
-        self.assertEqual(self.run_report(), (0, ""))
+        self.assertEqual(self.whole_report(), (0, ""))
         first = self.page()
-        self.assertEqual(self.run_report(), (0, ""))
+        self.assertEqual(self.whole_report(), (0, ""))
         self.assertEqual(self.page(), first)
 
     def test_truncated_frame_is_refused_by_name(self):

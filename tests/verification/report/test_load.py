@@ -71,8 +71,7 @@ class LoadPage(PageTest):
         write_run(self.folder, "load")
 
     def test_the_page_has_curves_and_says_what_the_coarse_cloth_makes_of_them(self):
-        status, errors = self.run_report()
-        self.assertEqual(status, 0, errors)
+        self.assertEqual(self.whole_report(), (0, ""))
         page = self.page()
         self.assertIn("homespun: stripes", page)
         self.assertIn("Given stresses and strains", page)

@@ -7,6 +7,7 @@ import os
 import shutil
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy
 from matplotlib import pyplot
@@ -20,7 +21,7 @@ from figures.drape import energy_figure
 from figures.sheet import hole_edges
 from figures.stiffness import RIM, polar_figure
 from made_up_study import LAMINATE, square_mesh
-from page import page
+from page import gallery, page
 from read.cell_results import Cell
 from read.vtu import Surface
 
@@ -126,6 +127,30 @@ class CurveTest(unittest.TestCase):
         axes.annotate("2", (2.0, 4.0), xytext=(3, -2), textcoords="offset points", va="center")
         (word,) = plot_data.panels_of(figure)[0]["words"]
         self.assertEqual((word["text"], word["at"], word["shift"]), ("2", [2.0, 4.0], [3.0, -2.0]))
+
+
+class GalleryTest(unittest.TestCase):
+    def test_each_figure_has_its_own_files_whichever_process_saves_it_and_a_fault_is_raised(self):
+        def add(name, style):
+            figure, axes = pyplot.subplots()
+            axes.plot([1.0, 2.0], [1.0, 2.0], label=f"curve of {name}", drawstyle=style)
+            return made.add(figure, name, "")
+
+        for cores in (1, 2):
+            folder = tempfile.mkdtemp()
+            self.addCleanup(shutil.rmtree, folder)
+            with mock.patch.object(os, "sched_getaffinity", return_value=range(cores)), \
+                    mock.patch.object(gallery, "TOGETHER", 2):
+                made = gallery.Gallery(folder)
+                pictures = [add(name, "default") for name in "abcde"]
+                made.finish()
+                for picture in pictures:
+                    self.assertIn(f"curve of {picture.name}", picture.plot)
+                self.assertEqual(sorted(os.listdir(folder)),
+                                 [f"{name}.{kind}" for name in "abcde" for kind in ("csv", "svg")])
+                add("steps", "steps-post")
+                with self.assertRaisesRegex(ValueError, "`curve of steps` is drawn with"):
+                    made.finish()
 
 
 @unittest.skipUnless(browser.CHROMIUM, "needs chromium")

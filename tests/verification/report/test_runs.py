@@ -11,7 +11,7 @@ import h5py
 import report_path  # noqa: F401
 from made_up_run import list_again, write_run
 from made_up_study import write_results
-from page_case import PageTest, draw_alone
+from page_case import PageTest
 from read import results, schema
 from test_budget import write_budget
 
@@ -21,7 +21,6 @@ class OneRunTest(PageTest):
 
     def setUp(self):
         super().setUp()
-        draw_alone(self.addCleanup)  # test_page.py saves the figures of these results
         self.folder = os.path.join(self.place, "stripes")  # named as its cell, as out/NAME is
         write_results(self.folder)
 

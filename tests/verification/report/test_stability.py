@@ -96,8 +96,8 @@ class StabilityPage(PageTest):
         write_run(self.folder, "stability")
 
     def test_the_page_says_where_it_is_lost_to_what_and_how_sure_that_is(self):
-        status, errors = self.run_report()
-        self.assertEqual(status, 0, errors)
+        name = "stability-stripes-biot-uniaxial-1"
+        self.assertEqual(self.run_report(saved=[name]), (0, ""))
         page = self.page()
         self.assertIn("homespun: stripes", page)
         self.assertIn("Where the cells start to buckle in their plane", page)
@@ -110,7 +110,6 @@ class StabilityPage(PageTest):
         self.assertIn("lost, proved", page)
         self.assertIn("followed to an equilibrium with 2.40 % less energy", page)
         self.assertIn("stable, up to the mesh", page)
-        name = "stability-stripes-biot-uniaxial-1"
         self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"{name}.svg")))
 
     def test_a_path_without_loss_holds_up_to_the_mesh(self):

@@ -2,9 +2,9 @@
 """Saves figures as SVG, and as PDF where asked for, with their numbers as CSV, animations as WebP, and
 inlines them into the page.
 
-Laying a figure out and writing it takes most of the time of a page, and no figure
-knows of another: each is saved by a process of its own, a copy of this one, as many at once as
-there are cores, while the next is drawn.
+Laying figures out and writing them takes most of the time of a page, and no figure knows of
+another: they are saved by copies of this process, as many at once as there are cores, while the
+next are drawn. Each saves several, because a copy takes as long as two figures.
 """
 import base64
 import functools
@@ -32,6 +32,7 @@ METADATA = {  # the same input gives the same file
     "pdf": {"CreationDate": None, "Producer": None, "Creator": "homespun"},
     "svg": {"Date": None, "Creator": "homespun"},
 }
+TOGETHER = 8  # figures that one process saves
 FULL_IMAGES = 6  # that the page takes at this resolution; more of them become coarser
 
 
@@ -47,6 +48,10 @@ class Picture:
     endings: tuple = ("svg",)  # of its files, as far as there are any
     plot: str = ""  # JSON of panels and curves, for the interactive plot
     view: str = ""  # JSON of a cloth to turn and zoom
+
+    def take(self, saved):
+        """What Gallery.save() returned is of this figure."""
+        self.source, self.width, self.endings, self.plot = saved
 
 
 def short_svg(svg):
@@ -141,7 +146,8 @@ class Gallery:
         learn_to_draw(self.kinds + ("png",))
         self.names = set()
         self.at_once = len(os.sched_getaffinity(0))
-        self.saving = {}  # connection: process and Picture
+        self.waiting = []  # Picture, and what save() needs
+        self.saving = {}  # connection: process and Pictures
 
     def tell(self, name):
         """What is drawn now, on a line that rewrites itself; nothing where no terminal shows it."""
@@ -170,44 +176,81 @@ class Gallery:
         name = self.own_name(name)
         self.tell(name)
         picture = Picture(name, "", caption, 0, view=in_page(view))
+        self.waiting.append((picture, (figure, name, as_image, table, plotted)))
+        pyplot.close(figure)
+        if len(self.waiting) == TOGETHER:
+            self.start(TOGETHER)
+        return picture
+
+    def start(self, count):
+        """Has so many of the figures that wait saved, by a process of their own where another core
+        could draw meanwhile.
+        """
+        pictures, figures = zip(*self.waiting[:count])
+        del self.waiting[:count]
+        if self.at_once == 1:
+            for picture, figure in zip(pictures, figures):
+                picture.take(self.save(*figure))
+            return
         theirs, mine = multiprocessing.Pipe(duplex=False)
         process = multiprocessing.get_context("fork").Process(
-            target=self.send_saved, args=(mine, figure, name, as_image, table, plotted), daemon=True
+            target=self.send_saved, args=(mine, figures), daemon=True
         )
         process.start()
         mine.close()
-        pyplot.close(figure)
-        self.saving[theirs] = (process, picture)
-        self.finish(self.at_once - 1)
-        return picture
+        self.saving[theirs] = (process, pictures)
+        self.wait(self.at_once - 1)
 
-    def send_saved(self, to, *figure):
+    def send_saved(self, to, figures):
         """save(), in a process of its own: what it returns or raises goes to the one that asked."""
         gc.disable()  # it ends before there is much to collect
         try:
-            to.send(self.save(*figure))
+            to.send([self.save(*figure) for figure in figures])
         except Exception as error:  # pylint: disable=broad-exception-caught
             to.send(fault_of_system(error) or error)
 
-    def finish(self, unfinished=0):
-        """Waits until no more than so many figures are still being saved.
+    def finish(self):
+        """Saves the figures that wait, as many on each core, and waits until all are saved.
 
         @throws what went wrong with one of them
         """
+        share = -(-len(self.waiting) // self.at_once)
+        while self.waiting:
+            self.start(share)
+        self.wait(0)
+
+    def wait(self, unfinished):
+        """Waits until no more than so many processes still save figures.
+
+        @throws what went wrong with a figure
+        """
         while len(self.saving) > unfinished:
             for theirs in connection.wait(list(self.saving)):
-                process, picture = self.saving.pop(theirs)
+                process, pictures = self.saving.pop(theirs)
                 try:
                     saved = theirs.recv()
                 except EOFError:
-                    saved = RuntimeError(f"saving the figure {picture.name} ended without a word")
+                    names = ", ".join(picture.name for picture in pictures)
+                    saved = RuntimeError(f"saving the figures {names} ended without a word")
                 process.join()
                 if isinstance(saved, Exception):
                     raise saved
-                picture.source, picture.width, picture.endings, picture.plot = saved
+                for picture, files in zip(pictures, saved):
+                    picture.take(files)
 
     def save(self, figure, name, as_image, table, plotted):
         """The files of a figure, and source, width, endings and plot of its Picture."""
+        source, width = self.save_picture(figure, name, as_image)
+        panels = None if as_image or not plotted else plot_data.panels_of(figure)
+        header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
+        endings = self.kinds + (("csv",) if rows else ())
+        if rows:
+            with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
+                file.write(plot_data.csv_text(rows, header))
+        return source, width, endings, in_page(panels)
+
+    def save_picture(self, figure, name, as_image):
+        """Lays a figure out and writes it; its source and width on the page."""
         if engine := figure.get_layout_engine():
             engine.execute(figure)  # once for all formats
             figure.set_layout_engine(None)  # one that does nothing would draw once more per format
@@ -225,13 +268,7 @@ class Gallery:
             with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
                 # Without quotes and ampersands.
                 source = Markup(svg_address(short_svg(file.read())))
-        panels = None if as_image or not plotted else plot_data.panels_of(figure)
-        header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
-        endings = self.kinds + (("csv",) if rows else ())
-        if rows:
-            with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
-                file.write(plot_data.csv_text(rows, header))
-        return source, round(105.0 * box.width), endings, in_page(panels)
+        return source, round(105.0 * box.width)
 
     def add_animation(self, data, name, width, caption):
         """Saves `name`.webp, a looping picture of so many pixels' width.
