@@ -8,10 +8,10 @@ import re
 import shutil
 import subprocess
 
-from cli import CELLS, PROGRAM, InFolder, run
+from cli import LAYERED, PROGRAM, InFolder, run
 
 FULL = pathlib.Path(PROGRAM).with_name("homespun-full")
-CELL = CELLS / "layered.prm"
+CELL = LAYERED
 COMMANDS = ("check", "homogenize", "strain", "drape", "upsample", "stress", "converge", "verify",
             "report", "cells", "periodic")
 AT_ONCE = [("--help",), ("--version",), (), ("frobnicate",), ("strain", "--frobnicate"),

@@ -4,9 +4,9 @@ import json
 import math
 import unittest
 
-from cli import CELLS, WEAVE, InFolder, cut, rows_of, run
+from cli import CELLS, LAYERED, WEAVE, InFolder, cut, rows_of, run
 
-STUDY = ["strain", CELLS / "layered.prm", "--cells", "2", "--strains", "0.01,0.1", "--loads",
+STUDY = ["strain", LAYERED, "--cells", "2", "--strains", "0.01,0.1", "--loads",
          "periodic-12,shear-frame", "--references", "biot", "--methods", "localized", "--no-report"]
 
 NORMS = ("mean_m", "rms_m", "max_m", "mean_per_cell", "share")
@@ -71,7 +71,7 @@ class Budget(InFolder):
 
     def test_methods_with_coarse_cloths_of_their_own_have_run_times(self):
         methods = ("localized+edges", "localized+cubic+modes", "localized+p2", "full")
-        result = run("strain", CELLS / "layered.prm", "--cells", "4", "--strains", "0.01",
+        result = run("strain", LAYERED, "--cells", "4", "--strains", "0.01",
                      "--loads", "shear-frame", "--references", "biot", "--methods",
                      ",".join(("localized",) + methods), "--no-budget", "--no-report", "--quiet",
                      "--output", self.folder)

@@ -15,7 +15,10 @@ PROGRAM = os.environ["HOMESPUN"]
 PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
 CELLS = pathlib.Path(__file__).resolve().parents[3] / "meshes" / "cells"
-WEAVE = CELLS / "plain-weave-straight.prm"  # a thousand times as stiff along a yarn as in shear
+# Shipped cells on coarse meshes, where the statement does not depend on the mesh.
+COARSE = CELLS.parents[1] / "tests" / "cells"
+LAYERED, THREE = COARSE / "layered.prm", COARSE / "three-stiffness.prm"
+WEAVE = COARSE / "plain-weave-straight.prm"  # a thousand times as stiff along a yarn as in shear
 
 
 class Status(int):
@@ -69,12 +72,12 @@ class InFolder(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="homespun-"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
-    def cell_with(self, before, after, name="layered"):
-        """A copy of a shipped cell, with one piece of its .prm replaced."""
-        shutil.copy(CELLS / f"{name}.msh", self.folder)
-        text = (CELLS / f"{name}.prm").read_text(encoding="utf-8")
+    def cell_with(self, before, after):
+        """A copy of a coarse cell, with one piece of its .prm replaced."""
+        shutil.copy(COARSE / "layered.msh", self.folder)
+        text = LAYERED.read_text(encoding="utf-8")
         self.assertIn(before, text)
-        path = self.folder / f"{name}.prm"
+        path = self.folder / "layered.prm"
         path.write_text(text.replace(before, after), encoding="utf-8")
         return path
 

@@ -8,7 +8,7 @@ import unittest
 
 import h5py
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, LAYERED, THREE, InFolder, rows_of, run
 
 
 class Help(unittest.TestCase):
@@ -34,7 +34,7 @@ class Help(unittest.TestCase):
 
     def test_what_solves_nothing_starts_no_mpi(self):
         without = dict(os.environ, OMPI_MCA_pml="absent")  # with which MPI does not start
-        cell = CELLS / "layered.prm"
+        cell = LAYERED
         with tempfile.TemporaryDirectory() as folder:
             self.assertNotEqual(run("homogenize", cell, "--no-bars", "--output", folder + "/cell",
                                     env=without).returncode, 0)
@@ -47,7 +47,7 @@ class Help(unittest.TestCase):
 
     def test_an_unknown_command_or_option_is_bad_input(self):
         self.assertEqual(run("knit").returncode, 2)
-        self.assertEqual(run("check", "--purl", CELLS / "layered.prm").returncode, 2)
+        self.assertEqual(run("check", "--purl", LAYERED).returncode, 2)
         self.assertEqual(run().returncode, 2)
 
     def test_the_shipped_cells_are_listed_and_sound(self):
@@ -60,13 +60,13 @@ class Help(unittest.TestCase):
 class Verify(InFolder):
     def test_a_cell_that_cannot_be_read_fails_on_the_first_line_before_anything_runs(self):
         path = self.cell_with("soft: 0.3", "soft: 1.0")
-        result = run("verify", CELLS / "layered.prm", path, "--output", self.folder / "out")
+        result = run("verify", LAYERED, path, "--output", self.folder / "out")
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stdout.splitlines()[0], "^FAIL: .*Poisson's ratio 1")
         self.assertFalse((self.folder / "out").exists())
 
     def test_one_part_of_one_cell_ends_with_its_outcome_and_one_file_of_claims(self):
-        result = run("verify", CELLS / "layered.prm", "--parts", "homogenize", "--no-report",
+        result = run("verify", LAYERED, "--parts", "homogenize", "--no-report",
                      "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"^PASS: (\d+) of \1 claims hold\n")
@@ -82,14 +82,14 @@ class Verify(InFolder):
         self.assertFalse((self.folder / "out").exists())
 
     def test_an_unknown_part_is_refused(self):
-        result = run("verify", CELLS / "layered.prm", "--parts", "weave", "--output", self.folder)
+        result = run("verify", LAYERED, "--parts", "weave", "--output", self.folder)
         self.assertEqual(result.returncode, 2)
         self.assertIn("--parts: found `weave`; expected homogenize", result.stderr)
 
 
 class Homogenize(InFolder):
     def test_results_have_the_names_that_other_programs_read(self):
-        result = run("homogenize", CELLS / "layered.prm", "--output", self.folder)
+        result = run("homogenize", LAYERED, "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         found = json.loads((self.folder / "homogenize.json").read_text())
         self.assertEqual(found["C_bar"], "bracket")
@@ -110,7 +110,7 @@ class Homogenize(InFolder):
         self.assertIn(b"chi_12", (self.folder / "characteristic-displacements.vtu").read_bytes())
 
     def test_the_bracket_of_a_laminate_closes_and_holds_its_exact_stiffness(self):
-        result = run("homogenize", CELLS / "layered.prm", "--order", "1", "--output", self.folder)
+        result = run("homogenize", LAYERED, "--order", "1", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("relative width", result.stdout)
         found = json.loads((self.folder / "homogenize.json").read_text())
@@ -121,7 +121,7 @@ class Homogenize(InFolder):
         self.assertGreaterEqual(found["C_upper"][1][1], 500 * 1.998001998001998)
 
     def test_a_width_that_is_not_reached_fails_and_one_that_is_passes(self):
-        cell = CELLS / "three-stiffness.prm"
+        cell = THREE
         result = run("homogenize", cell, "--tolerance", "1e-6", "--max-dofs", "5000", "--output",
                      self.folder)
         self.assertEqual(result.returncode, 1, result.stderr)
@@ -140,7 +140,7 @@ class Homogenize(InFolder):
                          "--no-bars excludes --tolerance|--tolerance excludes --no-bars")
 
     def test_bending_stands_between_its_sides_beside_what_the_inputs_are_worth(self):
-        result = run("homogenize", CELLS / "layered.prm", "--uncertain",
+        result = run("homogenize", LAYERED, "--uncertain",
                      "soft.E=20%,hard.E=20%", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         found = json.loads((self.folder / "homogenize.json").read_text())
@@ -173,7 +173,7 @@ class Homogenize(InFolder):
             self.assertEqual(cell["deflection"].attrs["unit"], b"m^2")
         for name in ("abaqus.inp", "code_aster.comm"):
             self.assertTrue((self.folder / f"shell-section-{name}").exists())
-        result = run("homogenize", CELLS / "layered.prm", "--uncertain", "sfot.E=20%", "--output",
+        result = run("homogenize", LAYERED, "--uncertain", "sfot.E=20%", "--output",
                      self.folder / "misspelt")
         self.assertEqual(result.returncode, 2)
         self.assertIn("names the phase `sfot`", result.stderr)
@@ -263,7 +263,7 @@ class BadInput(InFolder):
     def test_a_truncated_mesh_is_refused_and_leaves_nothing_behind(self):
         cell = self.cell_with("soft", "soft")
         mesh = self.folder / "layered.msh"
-        mesh.write_bytes(mesh.read_bytes()[:9000])
+        mesh.write_bytes(mesh.read_bytes()[:-500])
         output = self.folder / "out"
         self.refused("homogenize", cell, "--output", output, says=["layered.msh: cannot be read"])
         self.refused("strain", cell, "--quick", "--output", output,
@@ -271,7 +271,7 @@ class BadInput(InFolder):
         self.assertFalse(output.exists())
 
     def test_unknown_loads_methods_and_strains_are_refused_together(self):
-        self.refused("strain", CELLS / "layered.prm", "--loads", "strip-3", "--methods", "magic",
+        self.refused("strain", LAYERED, "--loads", "strip-3", "--methods", "magic",
                      "--references", "hooke", "--strains", "0.1,-2",
                      says=["`strip-3`", "`magic`", "`hooke`", "-2"])
 
@@ -294,14 +294,14 @@ class BadInput(InFolder):
 
     def test_an_output_that_cannot_be_written_is_named(self):
         for ranks in (1, 2):
-            result = run("homogenize", CELLS / "layered.prm", "--quiet", "--output",
+            result = run("homogenize", LAYERED, "--quiet", "--output",
                          "/proc/nowhere", ranks=ranks)
             self.assertNotEqual(result.returncode, 0)
             self.assertIn("/proc/nowhere", result.stderr)
             self.assertNotIn("terminate called", result.stderr)
 
     def test_a_length_with_its_unit_is_refused_in_one_line(self):
-        cell = self.cell_with("= 0.01 ", "= 1 cm ")
+        cell = self.cell_with("= 0.01", "= 1 cm")
         result = run("check", cell)
         self.assertEqual(result.returncode, 2)
         self.assertIn("key `Length unit`: found `1 cm`", result.stderr)
@@ -320,7 +320,7 @@ class BadInput(InFolder):
                      says=["none.prm: no such file"])
 
     def test_two_cells_of_one_name_are_refused(self):
-        self.refused("strain", CELLS / "layered.prm", self.cell_with("soft", "soft"), "--output",
+        self.refused("strain", LAYERED, self.cell_with("soft", "soft"), "--output",
                      self.folder / "out", says=["rename one"])
 
 

@@ -6,7 +6,7 @@ import unittest
 import unittest.mock
 
 import broken_cells_test
-from cli import CELLS, InFolder, cut, rows_of, run, status_of
+from cli import LAYERED, THREE, InFolder, cut, rows_of, run, status_of
 
 TEXTS = {"cell", "study", "case", "quantity", "h_unit", "judgement", "claim", "limit", "kind",
          "kind_of_claim", "derivation", "id"}
@@ -18,7 +18,7 @@ class Converge(InFolder):
                 if kind in (None, row["kind"])]
 
     def test_quick_run_leaves_finite_numbers_verdicts_and_a_page(self):
-        result = run("converge", CELLS / "layered.prm", "--quick", "--studies",
+        result = run("converge", LAYERED, "--quick", "--studies",
                      "mesh,scale,coarse,strain,time", "--quiet", "--output", self.folder)
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         failed = [verdict for verdict in verdicts if verdict["verdict"] == "FAIL"]
@@ -55,7 +55,7 @@ class Converge(InFolder):
         self.assertIn("observed orders lie within their limits", page)
 
     def test_a_resumed_study_runs_only_what_is_missing_and_equals_an_uninterrupted_one(self):
-        options = ("converge", CELLS / "layered.prm", "--quick", "--studies", "mesh,time",
+        options = ("converge", LAYERED, "--quick", "--studies", "mesh,time",
                    "--quiet", "--no-report", "--output", self.folder)
         first = run(*options)
         self.assertIn(first.returncode, (0, 4), first.stderr)
@@ -81,18 +81,18 @@ class Converge(InFolder):
     def test_rows_of_other_inputs_never_stand_in_the_same_table(self):
         output = self.folder / "out"
         options = ("--quick", "--no-report", "--output", output)
-        self.assertIn(run("converge", CELLS / "layered.prm", *options, "--studies",
+        self.assertIn(run("converge", LAYERED, *options, "--studies",
                           "mesh").returncode, (0, 4))
         table = (output / "converge.csv").read_bytes()
         for other, studies in ((self.cell_with("soft: 400, hard: 400", "soft: 400, hard: 500"),
                                 "mesh"),
                                (self.cell_with("hard: 1e7", "hard: 2e7"), "mesh"),
-                               (CELLS / "layered.prm", "time")):
+                               (LAYERED, "time")):
             result = run("converge", other, *options, "--studies", studies, "--resume")
             self.assertEqual(result.returncode, 2)
             self.assertIn("holds another run", result.stderr)
             self.assertEqual((output / "converge.csv").read_bytes(), table)
-        result = run("converge", CELLS / "layered.prm", *options, "--studies", "time",
+        result = run("converge", LAYERED, *options, "--studies", "time",
                      "--overwrite")
         self.assertIn(result.returncode, (0, 4), result.stderr)
         self.assertIn("the earlier run was replaced", result.stderr)
@@ -132,7 +132,7 @@ class Converge(InFolder):
         self.assertGreater(n_left_out, 0)
 
     def test_brackets_of_laminates_close_and_those_of_corners_fall_faster_on_adaptive_meshes(self):
-        result = run("converge", CELLS / "layered.prm", CELLS / "three-stiffness.prm", "--quick",
+        result = run("converge", LAYERED, THREE, "--quick",
                      "--studies", "adaptive", "--quiet", "--no-report", "--output", self.folder)
         claims = [{**row, "verdict": row["judgement"]} for row in self.rows("claim")]
         self.assertEqual(result.returncode, status_of(claims), result.stderr)
@@ -178,7 +178,7 @@ class Converge(InFolder):
         self.assertEqual(methods, {"affine", "localized"})
 
     def test_an_unknown_study_is_refused_with_the_names_there_are(self):
-        result = run("converge", CELLS / "layered.prm", "--studies", "mesh,knit", "--output",
+        result = run("converge", LAYERED, "--studies", "mesh,knit", "--output",
                      self.folder)
         self.assertEqual(result.returncode, 2)
         for word in ("--studies", "knit", "edges", "scale"):

@@ -3,7 +3,7 @@
 import re
 import unittest
 
-from cli import CELLS, run
+from cli import LAYERED, run
 from scene_case import SCENES, TRIANGLE, SceneCase
 
 
@@ -91,7 +91,7 @@ class BadScenes(SceneCase):
 
     def test_frames_that_are_not_kept_are_told_with_the_reason(self):
         # A sheet pressed together by nearly its height, in steps too large for the coarse cloth.
-        path = self.scene({"Cells": CELLS / "layered.prm", "Integrator": "conserving",
+        path = self.scene({"Cells": LAYERED, "Integrator": "conserving",
                            "Time step": "0.02", "Frame interval": "0.02", "Duration": "0.5",
                            "Handles": "top: translate 0 0 -0.19 during 0.5"}, name="pull")
         output = self.folder / "out"

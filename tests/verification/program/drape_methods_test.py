@@ -2,7 +2,7 @@
 """Methods of `drape` that move coarse cloths of their own."""
 import unittest
 
-from cli import CELLS, rows_of, run
+from cli import CELLS, THREE, rows_of, run
 from scene_case import TRIANGLE, SceneCase
 
 
@@ -14,7 +14,7 @@ class MethodsOfTheirOwn(SceneCase):
 
     TERMS = "membrane, damping, pins, handles, selvedge"
     COMMON = ["--quick", "--duration", 0.2, "--no-report", "--frames", "obj", "--references",
-              "shell", "--unit-cells", CELLS / "three-stiffness.prm"]
+              "shell", "--unit-cells", THREE]
 
     def test_each_has_its_cloth_and_the_others_keep_every_byte(self):
         with_them, without = self.folder / "with", self.folder / "without"
@@ -97,7 +97,7 @@ class MethodsOfTheirOwn(SceneCase):
         held = {"Terms": "membrane, gravity, damping, pins", "Pins": "vertices 0 1"}
         result = run("drape", self.scene(held, "hang", garment=TRIANGLE), "--quick", "--duration",
                      0.1, "--no-report", "--no-frames", "--unit-cells",
-                     CELLS / "three-stiffness.prm", "--methods", "localized,full", "--output",
+                     THREE, "--methods", "localized,full", "--output",
                      self.folder / "garment")
         self.assertEqual(result.returncode, 0, result.stderr)
         said = result.stdout + result.stderr

@@ -10,7 +10,7 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, PROGRAM, cut, rows_of, run
+from cli import CELLS, LAYERED, PROGRAM, cut, rows_of, run
 from scene_case import SCENES, SceneCase
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
@@ -44,7 +44,7 @@ class Scenes(SceneCase):
     def test_frames_open_elsewhere(self):
         output = self.folder / "frames"
         run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.1, "--frames", "vtu,ply,obj",
-            "--no-report", "--unit-cells", CELLS / "layered.prm", "--output", output)
+            "--no-report", "--unit-cells", LAYERED, "--output", output)
         folder = output / "layered-biot"
         self.assertEqual((folder / "fine.pvd").read_text().count("fine_000"), 3)
         for ending in ("vtu", "ply", "obj"):
@@ -53,7 +53,7 @@ class Scenes(SceneCase):
     def test_a_duration_is_run_in_whole_steps_and_said_as_it_was_run(self):
         output = self.folder / "out"
         self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.035,
-                             "--no-frames", "--no-report", "--unit-cells", CELLS / "layered.prm",
+                             "--no-frames", "--no-report", "--unit-cells", LAYERED,
                              "--output", output).returncode, 0)
         self.assertEqual([float(row["time_s"]) for row in rows_of(output / "motion.csv")
                           if not row["place"]], [0., 0.03])
@@ -65,7 +65,7 @@ class Scenes(SceneCase):
         scene = self.scene({"Integrator": "static"})
         self.assertEqual(run("drape", scene, "--quick", "--duration", 0.05, "--references",
                              "biot,shell", "--variants", "biot,nodal-warping",
-                             "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                             "--unit-cells", LAYERED, "--no-frames", "--no-report",
                              "--output", output).returncode, 0)
         energies = {(row["cloth"], row["variant"], int(row["frame"])): row
                     for row in rows_of(output / "motion.csv") if not row["place"]}
@@ -81,7 +81,7 @@ class Scenes(SceneCase):
         scene = self.scene({"Pins": "vertices 0 20", "Gravity": "0 0 9.81"})
         output = self.folder / "out"
         result = run("drape", scene, "--quick", "--duration", 0.05, "--references", "biot",
-                     "--unit-cells", CELLS / "layered.prm", "--no-report", "--output", output)
+                     "--unit-cells", LAYERED, "--no-report", "--output", output)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         for name in ("layered-biot", "layered-reference-biot"):
             before, after = (read_vtu(output / name / f"fine_000{frame}.vtu").points
@@ -108,7 +108,7 @@ class Scenes(SceneCase):
     def test_what_absent_terms_cost_is_measured_with_its_spread(self):
         output = self.folder / "out"
         self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--costs",
-                             "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                             "--unit-cells", LAYERED, "--no-frames", "--no-report",
                              "--output", output).returncode, 0)
         rows = {row["term"]: row for row in rows_of(output / "terms.csv")}
         self.assertEqual(set(rows), {"bending", "gravity", "damping", "wind", "obstacles"})
@@ -122,7 +122,7 @@ class Scenes(SceneCase):
         for ranks in (1, 2):
             output = self.folder / f"ranks{ranks}"
             result = run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.15,
-                         "--references", "biot,shell", "--unit-cells", CELLS / "layered.prm",
+                         "--references", "biot,shell", "--unit-cells", LAYERED,
                          "--no-frames", "--no-report", "--output", output, ranks=ranks)
             self.assertEqual(result.returncode, 0, result.stderr)
             errors.append({(row["reference"], row["method"], row["frame"]):
@@ -137,7 +137,7 @@ class Scenes(SceneCase):
 
     def test_a_resumed_run_equals_an_uninterrupted_one(self):
         study = ["drape", SCENES / "pull.prm", "--quick", "--references", "biot,shell",
-                 "--unit-cells", CELLS / "layered.prm", "--no-report", "--output"]
+                 "--unit-cells", LAYERED, "--no-report", "--output"]
         whole, early = self.folder / "whole", self.folder / "early"
         self.assertEqual(run(*study, whole, "--duration", 0.3).returncode, 0)
         self.assertEqual(run(*study, early, "--duration", 0.15).returncode, 0)
@@ -201,7 +201,7 @@ class Scenes(SceneCase):
 
     def test_a_finished_run_that_is_resumed_keeps_its_times(self):
         study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells",
-                 CELLS / "layered.prm", "--no-frames", "--no-report", "--duration", 0.1, "--output",
+                 LAYERED, "--no-frames", "--no-report", "--duration", 0.1, "--output",
                  self.folder / "out"]
 
         def reference():
@@ -216,7 +216,7 @@ class Scenes(SceneCase):
     def test_the_state_of_another_run_is_not_taken_up(self):
         output = self.folder / "out"
         study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells",
-                 CELLS / "layered.prm", "--no-frames", "--no-report", "--duration", 0.1, "--output",
+                 LAYERED, "--no-frames", "--no-report", "--duration", 0.1, "--output",
                  output]
         self.assertEqual(run(*study).returncode, 0)
         checkpoint = output / "layered-reference-shell" / "checkpoint.h5"
@@ -267,7 +267,7 @@ class Scenes(SceneCase):
     def test_a_run_that_was_killed_is_taken_up_where_it_was(self):
         output = self.folder / "out"
         study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells",
-                 CELLS / "layered.prm", "--no-frames", "--no-report", "--duration", 1, "--output",
+                 LAYERED, "--no-frames", "--no-report", "--duration", 1, "--output",
                  output]
         checkpoint = output / "layered-reference-shell" / "checkpoint.h5"
         with subprocess.Popen([PROGRAM, *map(str, study)], stdout=subprocess.DEVNULL,
@@ -289,7 +289,7 @@ class Scenes(SceneCase):
 
     def test_a_run_is_taken_up_only_with_what_it_was_asked_for(self):
         output = self.folder / "out"
-        study = ["drape", SCENES / "pull.prm", "--quick", "--unit-cells", CELLS / "layered.prm",
+        study = ["drape", SCENES / "pull.prm", "--quick", "--unit-cells", LAYERED,
                  "--no-frames", "--no-report", "--duration", 0.1, "--output", output]
         asked = {"--variants": "biot", "--methods": "localized", "--references": "shell"}
         options = [word for pair in asked.items() for word in pair]
@@ -305,7 +305,7 @@ class Scenes(SceneCase):
         output = self.folder / "out"
         self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.1,
                              "--references", "shell", "--variants", "biot,nodal-warping",
-                             "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                             "--unit-cells", LAYERED, "--no-frames", "--no-report",
                              "--output", output).returncode, 0)
         claims = {verdict["claim"]: verdict
                   for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]
@@ -321,7 +321,7 @@ class Scenes(SceneCase):
 
     def test_what_was_left_out_is_what_was_not_asked_for(self):
         study = ["drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--unit-cells",
-                 CELLS / "layered.prm", "--no-frames", "--no-report"]
+                 LAYERED, "--no-frames", "--no-report"]
         for options, left_out in (
                 ([], ["full-resolution cloth", "frames", "what absent terms would cost"]),
                 (["--references", "biot,shell", "--costs"],

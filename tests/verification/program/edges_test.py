@@ -7,13 +7,13 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, LAYERED, InFolder, rows_of, run
 
 
 class Edges(InFolder):
     def test_cell_files_hold_edges_with_units_and_say_which_is_which(self):
         output = self.folder / "out"
-        result = run("homogenize", CELLS / "layered.prm", "--order", "1", "--no-bars", "--quiet",
+        result = run("homogenize", LAYERED, "--order", "1", "--no-bars", "--quiet",
                      "--output", output)
         self.assertEqual(result.returncode, 0, result.stderr)
         summary = json.loads((output / "homogenize.json").read_text())["edges"]
@@ -75,7 +75,7 @@ class Edges(InFolder):
 
     def test_strain_holds_the_method_against_the_resolved_sheet(self):
         output = self.folder / "out"
-        result = run("strain", CELLS / "layered.prm", "--quick", "--loads",
+        result = run("strain", LAYERED, "--quick", "--loads",
                      "periodic-12,strip-1,shear-frame", "--references", "linear,biot", "--strains",
                      "0.01,0.1", "--methods", "affine,localized,localized+edges,localized+p2,full",
                      "--no-budget", "--no-runtime", "--no-report", "--output", output)
@@ -127,7 +127,7 @@ class Edges(InFolder):
 
     def test_an_odd_number_of_cells_has_no_six_node_triangles_and_says_so(self):
         output = self.folder / "out"
-        result = run("strain", CELLS / "layered.prm", "--quick", "--cells", "3", "--loads",
+        result = run("strain", LAYERED, "--quick", "--cells", "3", "--loads",
                      "strip-1", "--references", "biot", "--strains", "0.01", "--methods",
                      "localized,localized+p2", "--no-budget", "--no-runtime", "--no-report",
                      "--output", output)

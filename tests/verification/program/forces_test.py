@@ -6,7 +6,7 @@ import unittest
 
 import numpy
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, LAYERED, InFolder, rows_of, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -21,7 +21,7 @@ def number(row, column):
 class Strain(InFolder):
     def test_forces_of_a_quick_study_are_those_of_linear_theory_and_have_a_bar(self):
         output = self.folder / "out"
-        result = run("strain", CELLS / "layered.prm", "--quick", "--loads", "periodic-22,strip-2",
+        result = run("strain", LAYERED, "--quick", "--loads", "periodic-22,strip-2",
                      "--references", "linear,biot", "--strains", "0.01,0.1", "--no-budget",
                      "--no-runtime", "--no-report", "--output", output)
         self.assertIn(result.returncode, (0, 4), result.stderr)
@@ -63,7 +63,7 @@ class Strain(InFolder):
 
     def test_sheets_are_left_for_paraview_near_a_tenth_and_at_the_largest_strain(self):
         output = self.folder / "out"
-        result = run("strain", CELLS / "layered.prm", "--cells", "2", "--loads", "strip-2",
+        result = run("strain", LAYERED, "--cells", "2", "--loads", "strip-2",
                      "--references", "linear,biot", "--strains", "0.01,0.1,0.15", "--no-budget",
                      "--no-runtime", "--no-report", "--output", output)
         self.assertIn(result.returncode, (0, 4), result.stderr)
@@ -83,7 +83,7 @@ class Strain(InFolder):
 class Cell(InFolder):
     def test_the_vtu_of_a_cell_holds_strains_and_stresses_whose_mean_is_its_stiffness(self):
         output = self.folder / "out"
-        self.assertEqual(run("homogenize", CELLS / "layered.prm", "--no-bars", "--output",
+        self.assertEqual(run("homogenize", LAYERED, "--no-bars", "--output",
                              output).returncode, 0)
         cell = read_vtu(output / "characteristic-displacements.vtu")
         points, triangles = cell.points, cell.triangles
@@ -110,7 +110,7 @@ class Drape(InFolder):
         (self.folder / "scene.prm").write_text(scene + "\nset Integrator = static\n",
                                                encoding="utf-8")
         result = run("drape", self.folder / "scene.prm", "--quick", "--duration", 0.05,
-                     "--references", "biot,shell", "--unit-cells", CELLS / "layered.prm",
+                     "--references", "biot,shell", "--unit-cells", LAYERED,
                      "--no-frames", "--no-report", "--output", output)
         self.assertEqual(result.returncode, 0, result.stderr)
         cell = json.loads((output / "drape.json").read_text())["cells"][0]

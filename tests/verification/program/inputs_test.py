@@ -13,7 +13,7 @@ import h5py
 import numpy
 
 from broken_cells_test import Cell, N, vertex
-from cli import CELLS, WEAVE, InFolder, run
+from cli import CELLS, LAYERED, WEAVE, InFolder, run
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -67,7 +67,7 @@ class OtherFiles(InFolder):
     def test_a_scene_given_to_homogenize_and_a_cell_given_to_drape_are_called_so(self):
         self.refused_in_one_line("homogenize", SCENES / "hang.prm", "is a scene",
                                  "homespun drape")
-        self.refused_in_one_line("drape", CELLS / "layered.prm", "is a cell", "--unit-cells")
+        self.refused_in_one_line("drape", LAYERED, "is a cell", "--unit-cells")
 
 
 class WaysToWrite(InFolder):
@@ -247,7 +247,7 @@ class CutHoles(InFolder):
 
 class Options(InFolder):
     def test_what_is_misspelt_or_in_another_order_is_one_line_with_what_was_meant(self):
-        cell = CELLS / "layered.prm"
+        cell = LAYERED
         for words, says in (
                 (("homogenise", cell), "found `homogenise`; expected a command first; did you mean "
                                        "`homogenize`?"),
@@ -272,14 +272,14 @@ class Options(InFolder):
         for words in (["--loads", "strip-1,", "strip-2"], ["--loads", "strip-1", ",strip-2"],
                       ["--loads=strip-1,", "strip-2"]):
             shutil.rmtree(self.folder / "out", ignore_errors=True)
-            result = run("strain", CELLS / "layered.prm", *words, "--strains", "0.01", *QUICK,
+            result = run("strain", LAYERED, *words, "--strains", "0.01", *QUICK,
                          "--output", self.folder / "out")
             self.assertNotEqual(result.returncode, 2, result.stderr)
             self.assertEqual(json.loads((self.folder / "out/study.json").read_text())["loads"],
                              ["strip-1", "strip-2"])
 
     def test_percentages_are_strains_and_a_large_number_asks_whether_percent_was_meant(self):
-        result = run("strain", CELLS / "layered.prm", "--loads", "periodic-11", "--strains",
+        result = run("strain", LAYERED, "--loads", "periodic-11", "--strains",
                      "1%,60%", *QUICK, "--output", self.folder)
         self.assertNotEqual(result.returncode, 2, result.stderr)
         self.assertEqual(json.loads((self.folder / "study.json").read_text())["strains"],
@@ -287,13 +287,13 @@ class Options(InFolder):
         for strain, words in (("0.5", "if percent was meant, write 0.5%, and else 50%"),
                               ("1", "which is 100 %; if percent was meant, write 1%"),
                               ("0,01", "decimal point")):
-            result = run("strain", CELLS / "layered.prm", "--strains", strain)
+            result = run("strain", LAYERED, "--strains", strain)
             self.assertEqual(result.returncode, 2)
             self.assertIn(words, result.stderr)
 
     def test_quiet_is_silent(self):
-        for words in (["homogenize", CELLS / "layered.prm"],
-                      ["verify", CELLS / "layered.prm", "--parts", "homogenize"]):
+        for words in (["homogenize", LAYERED],
+                      ["verify", LAYERED, "--parts", "homogenize"]):
             result = run(*words, "--quiet", "--output", self.folder / words[0])
             self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
 
@@ -316,7 +316,7 @@ class Frames(InFolder):
 
     def test_frames_hold_materials_of_triangles_and_warn_of_pins_at_points(self):
         result = run("drape", SCENES / "hang-corner.prm", "--quick", "--unit-cells",
-                     CELLS / "layered.prm", "--no-report", "--duration", "0.02", "--output",
+                     LAYERED, "--no-report", "--duration", "0.02", "--output",
                      self.folder)
         self.assertNotEqual(result.returncode, 2, result.stderr)
         self.assertIn("held at single points (`top left`)", result.stderr)

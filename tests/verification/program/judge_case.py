@@ -6,7 +6,7 @@ import tempfile
 import h5py
 import numpy
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, LAYERED, InFolder, rows_of, run
 
 
 class Judging(InFolder):
@@ -87,7 +87,7 @@ class JudgingFrames(Judging):
     @classmethod
     def setUpClass(cls):
         cls.make("drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells",
-                 CELLS / "layered.prm", "--duration", "0.1", "--quick", "--references", "biot",
+                 LAYERED, "--duration", "0.1", "--quick", "--references", "biot",
                  "--no-frames")
 
     @staticmethod

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """homespun judge: positions of other programs against the references that a study kept."""
 import importlib.util
+import itertools
 import json
 import re
 import shutil
@@ -123,11 +124,11 @@ class Judge(JudgingLevels):
             path.unlink()
         path = self.write("strip-1-biot-0.1.npy", good)
         for words, *arguments in (
+                *((("no method, law or reference", "--seconds: found"), path, "--name", name,
+                   "--seconds", seconds) for name, seconds in zip(
+                       ("affine", "p2", "quadratic", "base", "biot", "shell", "reference", "woven"),
+                       itertools.cycle(("-1", "nan", "inf")))),
                 ("--name: found", path, "--name", "my method"),
-                *(("no method, law or reference", path, "--name", name) for name in (
-                    "affine", "p2", "quadratic", "base", "biot", "shell", "reference", "woven")),
-                *(("--seconds: found", path, "--seconds", seconds) for seconds in (
-                    "-1", "nan", "inf")),
                 ("is not there", self.folder / "nothing.npy")):
             self.refused(words, *arguments)
         self.refused("no run", path, study=self.folder)

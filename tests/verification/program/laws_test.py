@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from cli import CELLS, WEAVE, InFolder, rows_of, run
+from cli import CELLS, LAYERED, WEAVE, InFolder, rows_of, run
 
 
 def parts_and_notes(folder):
@@ -53,7 +53,7 @@ SMALL = ["--quick", "--loads", "periodic-11", "--strains", "0.001,0.01", "--meth
 
 class Default(InFolder):
     def test_each_cell_has_its_own_law_said_in_every_result(self):
-        result = run("strain", WEAVE, CELLS / "layered.prm", *SMALL,
+        result = run("strain", WEAVE, LAYERED, *SMALL,
                      "--output", self.folder / "run")
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         rows = rows_of(self.folder / "run" / "strain.csv")
@@ -76,7 +76,7 @@ class Default(InFolder):
                                ("periodic stability --loads periodic-11 --strains 0.1% --refine 0",
                                 "stability.csv")):
             periodic, name, *options = command.split()
-            result = run(periodic, name, WEAVE, CELLS / "layered.prm", *options,
+            result = run(periodic, name, WEAVE, LAYERED, *options,
                          "--no-report", "--output", self.folder / name)
             self.assertIn(result.returncode, (0, 1, 4), result.stderr)
             laws = {(row["cell"], row["law"]) for row in rows_of(self.folder / name / table)}
@@ -98,7 +98,7 @@ class Default(InFolder):
 
 class Supercell(InFolder):
     def test_cells_that_repeat_together_have_the_errors_of_one_where_it_is_stable(self):
-        study = ["strain", CELLS / "layered.prm", "--quick", "--strains", "0.001,0.01", "--methods",
+        study = ["strain", LAYERED, "--quick", "--strains", "0.001,0.01", "--methods",
                  "affine,localized", "--loads", "periodic-12,uniaxial-2",
                  "--references", "biot", "--no-runtime", "--no-report", "--output"]
         for name, more in (("one", []), ("two", ["--supercell", "1x2"])):
@@ -123,7 +123,7 @@ class Supercell(InFolder):
                                   ("2x", "periodic-12", "expected N1xN2"),
                                   ("1x1", "periodic-12", "expected N1xN2"),
                                   ("2x2", "strip-1", "beside no periodic load")):
-            result = run("strain", CELLS / "layered.prm", "--supercell", text, "--loads", load,
+            result = run("strain", LAYERED, "--supercell", text, "--loads", load,
                          "--output", self.folder / "run")
             self.assertEqual(result.returncode, 2)
             self.assertIn("--supercell", result.stderr)
@@ -151,7 +151,7 @@ class Stop(InFolder):
 class Yarns(InFolder):
     def test_a_cell_without_yarns_is_refused_before_anything_runs(self):
         output = self.folder / "run"
-        result = run("strain", CELLS / "layered.prm", "--quick", "--references", "biot,yarn",
+        result = run("strain", LAYERED, "--quick", "--references", "biot,yarn",
                      "--output", output)
         self.assertEqual(result.returncode, 2)
         for text in ("layered.prm", "--references yarn", "alike in all directions", "Orthotropic"):

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy
 
-from cli import CELLS, PROGRAM, InFolder, cut, run
+from cli import CELLS, LAYERED, PROGRAM, THREE, InFolder, cut, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -21,7 +21,7 @@ class Ranks(InFolder):
     def stiffness(self, cell, order, ranks):
         output = self.folder / f"{cell}-{order}-{ranks}"
         result = run("homogenize", CELLS / f"{cell}.prm", "--order", order, "--refine", 1,
-                     "--quiet", "--output", output, ranks=ranks)
+                     "--no-bars", "--quiet", "--output", output, ranks=ranks)
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads((output / "homogenize.json").read_text())["C"]
 
@@ -39,7 +39,7 @@ class Ranks(InFolder):
         rows = {}
         for ranks in (1, 2):
             output = self.folder / f"study-{ranks}"
-            result = run("strain", CELLS / "three-stiffness.prm", "--cells", 2, "--strains",
+            result = run("strain", THREE, "--cells", 2, "--strains",
                          "0.01,0.1", "--loads", "periodic-12,strip-2", "--no-runtime",
                          "--no-report", "--quiet", "--output", output, ranks=ranks)
             # At 10 % the budget of a sheet may be open.
@@ -80,7 +80,7 @@ def materials_of(piece):
 
 
 class Homogenize(InFolder):
-    CELL = CELLS / "three-stiffness.prm"
+    CELL = THREE
 
     def pieces(self, output, ranks):
         result = run("homogenize", self.CELL, "--refine", 2, "--no-bars", "--quiet", "--pieces",
@@ -121,16 +121,16 @@ class Homogenize(InFolder):
 
     def test_what_another_cell_left_is_refused_and_goes_when_it_begins_anew(self):
         study = ["--no-bars", "--quiet", "--output", self.folder]
-        self.assertEqual(run("homogenize", CELLS / "three-stiffness.prm", *study).returncode, 0)
+        self.assertEqual(run("homogenize", THREE, *study).returncode, 0)
         cut(self.folder)
         left = self.folder / "cell.h5"
         self.assertTrue(left.exists())
         of_another = left.read_bytes()
-        refused = run("homogenize", CELLS / "layered.prm", *study, "--resume")
+        refused = run("homogenize", LAYERED, *study, "--resume")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("holds another run", refused.stderr)
         self.assertEqual(left.read_bytes(), of_another)
-        again = run("homogenize", CELLS / "layered.prm", *study, "--overwrite")
+        again = run("homogenize", LAYERED, *study, "--overwrite")
         self.assertEqual(again.returncode, 0)
         found = json.loads((self.folder / "homogenize.json").read_text())
         self.assertEqual(found["cell"], "layered")
@@ -140,7 +140,7 @@ class Scaling(InFolder):
     def test_a_row_for_each_mesh_solver_and_number_of_ranks_and_one_stiffness_for_each_mesh(self):
         script = CELLS.parents[1] / "tests" / "benchmarks" / "scaling.py"
         found = subprocess.run(
-            [sys.executable, script, PROGRAM, CELLS / "three-stiffness.prm", "--refine", "0,1",
+            [sys.executable, script, PROGRAM, THREE, "--refine", "0,1",
              "--ranks", "1,2", "--solver", "multigrid,direct", "--repeats", "1", "--launcher",
              f"{os.environ['MPIEXEC']} --oversubscribe -n {{ranks}}"],
             check=True, capture_output=True, text=True, timeout=600)

@@ -7,12 +7,12 @@ import subprocess
 import time
 import unittest
 
-from cli import CELLS, PROGRAM, InFolder, cut, rows_of, run, status_of
+from cli import CELLS, LAYERED, PROGRAM, InFolder, cut, rows_of, run, status_of
 
-STUDY = ["strain", CELLS / "layered.prm", "--cells", "3", "--strains", "0.01,0.05,0.1", "--loads",
+STUDY = ["strain", LAYERED, "--cells", "3", "--strains", "0.01,0.05,0.1", "--loads",
          "periodic-12,strip-2", "--references", "linear,biot", "--no-budget", "--no-runtime",
          "--no-report", "--quiet"]
-SCENE = ["drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells", CELLS / "layered.prm",
+SCENE = ["drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells", LAYERED,
          "--cells", "1", "--duration", "0.1", "--no-frames", "--no-report"]
 
 
@@ -26,7 +26,8 @@ class Resume(InFolder):
 
     def test_a_study_cut_at_any_row_is_completed(self):
         whole = self.folder / "whole"
-        self.assertEqual(run(*STUDY, "--output", whole).returncode, 0)
+        status = run(*STUDY, "--output", whole).returncode
+        self.assertIn(status, (0, 4))  # on so coarse a mesh a claim may be open
         text = (whole / "strain.csv").read_text()
         expected = rows_of(whole / "strain.csv")
         for part in (0.35, 0.8):
@@ -35,7 +36,7 @@ class Resume(InFolder):
             self.assertEqual(refused.returncode, 2)
             self.assertIn("strain.csv: was changed after the run ended", refused.stderr)
             cut(whole)
-            self.assertEqual(run(*STUDY, "--output", whole, "--resume").returncode, 0)
+            self.assertEqual(run(*STUDY, "--output", whole, "--resume").returncode, status)
             resumed = rows_of(whole / "strain.csv")
             (whole / "strain.csv").write_text(text)
             self.assert_same_rows(resumed, expected)
@@ -43,7 +44,7 @@ class Resume(InFolder):
 
     def test_rows_of_another_study_are_not_mixed_in(self):
         output = self.folder / "other"
-        small = ["strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.01",
+        small = ["strain", LAYERED, "--loads", "periodic-12", "--strains", "0.01",
                  "--references", "biot", "--no-report", "--quiet", "--output", output]
         self.assertEqual(run(*small, "--cells", 2).returncode, 0)
         for ranks in (1, 2):
@@ -58,13 +59,13 @@ class Resume(InFolder):
                               "--cells", "2", "--no-budget", "--no-runtime"]}
         for name, options in studies.items():
             end = [*options, "--no-report", "--quiet", "--output", self.folder / name]
-            self.assertEqual(run(name, CELLS / "layered.prm", *end).returncode, 0)
+            self.assertEqual(run(name, LAYERED, *end).returncode, 0)
             result = run(name, other, *end, "--resume")
             self.assertEqual(result.returncode, 2, name)
             self.assertIn("holds another run (cell layered)", result.stderr)
         scene = [*SCENE, "--quiet", "--output", self.folder / "scene"]
         self.assertEqual(run(*scene).returncode, 0)
-        result = run(*(other if word == CELLS / "layered.prm" else word for word in scene),
+        result = run(*(other if word == LAYERED else word for word in scene),
                      "--resume")
         self.assertEqual(result.returncode, 2)
         self.assertIn("holds another run (cell layered)", result.stderr)
@@ -100,7 +101,7 @@ class Resume(InFolder):
                 self.assert_same_rows(rows_of(output / name), expected[name])
 
     def test_a_single_level_outside_the_window_of_the_verdicts_ends_well(self):
-        result = run("strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.2",
+        result = run("strain", LAYERED, "--loads", "periodic-12", "--strains", "0.2",
                      "--references", "biot", "--methods", "localized", "--no-report", "--output",
                      self.folder / "one")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -109,7 +110,8 @@ class Resume(InFolder):
 
     def test_a_killed_study_leaves_whole_rows(self):
         output = self.folder / "killed"
-        with subprocess.Popen([PROGRAM, *map(str, STUDY), "--output", str(output)],
+        study = [CELLS / "layered.prm" if word == LAYERED else word for word in STUDY]
+        with subprocess.Popen([PROGRAM, *map(str, study), "--output", str(output)],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             deadline = time.monotonic() + 60
             table = output / "strain.csv"

@@ -3,7 +3,7 @@
 import h5py
 import numpy
 
-from cli import CELLS, InFolder, run
+from cli import LAYERED, InFolder, run
 
 
 def coarse_sheet(cell, n):
@@ -34,7 +34,7 @@ class Upsampling(InFolder):
         cls.addClassCleanup(cls.made.doCleanups)
         output = cls.made.folder / "cell"
         # Of linear elements, as the cells of scenes.
-        result = run("homogenize", CELLS / "layered.prm", "--order", 1, "--output", output)
+        result = run("homogenize", LAYERED, "--order", 1, "--output", output)
         assert result.returncode == 0, result.stderr
         cls.cell = output / "cell.h5"
 

@@ -12,7 +12,7 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, PROGRAM, cut, rows_of, run
+from cli import CELLS, LAYERED, PROGRAM, cut, rows_of, run
 from upsample_case import Upsampling, write_obj
 from usda import Usda
 
@@ -30,7 +30,7 @@ class Oracles(Upsampling):
             with self.subTest(scene=scene):
                 result = run("drape", SCENES / f"{scene}.prm", *size, "--duration", 0.1,
                              "--frames", "obj,ply", "--no-report", "--unit-cells",
-                             CELLS / "layered.prm", "--output", drape / scene)
+                             LAYERED, "--output", drape / scene)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 made = drape / scene / "layered-biot"
                 self.output, self.rest = self.folder / f"out-{scene}", rest
@@ -50,7 +50,7 @@ class Oracles(Upsampling):
         path.write_text(scene.replace("damping, pins", "damping, pins, selvedge"), encoding="utf-8")
         method = "localized+edges+modes"
         result = run("drape", path, "--quick", "--duration", 0.1, "--frames", "obj,ply",
-                     "--no-report", "--unit-cells", CELLS / "layered.prm", "--methods",
+                     "--no-report", "--unit-cells", LAYERED, "--methods",
                      f"localized,{method}", "--output", self.folder / "drape")
         self.assertEqual(result.returncode, 0, result.stderr)
         made = self.folder / "drape" / f"layered-{method}"

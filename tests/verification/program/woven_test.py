@@ -4,7 +4,7 @@ import json
 import shutil
 import unittest
 
-from cli import CELLS, WEAVE, InFolder, rows_of, run
+from cli import CELLS, LAYERED, WEAVE, InFolder, rows_of, run
 from scene_case import SCENES
 
 HANGING = ["drape", SCENES / "hang.prm", "--unit-cells", WEAVE, "--cells", 2,
@@ -63,7 +63,7 @@ class Moving(InFolder):
 
     def test_what_has_no_yarns_or_no_energy_is_refused(self):
         alike = self.folder / "alike.prm"  # C^H of one material has no axes
-        alike.write_text((CELLS / "layered.prm").read_text().replace("1e7", "1e6"))
+        alike.write_text((LAYERED).read_text().replace("1e7", "1e6"))
         shutil.copy(CELLS / "layered.msh", self.folder)
         for options, cell, texts in (
                 (("--references", "yarn"), "layered.prm", ("layered.prm", "--references yarn")),
