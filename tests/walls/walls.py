@@ -277,6 +277,20 @@ def test_headers(house):
                    "folder's README.md lists it")
 
 
+def unlisted_tests(house):
+    """Tests in Python that no CMakeLists.txt names or finds by a pattern."""
+    lists = {path[:-len("CMakeLists.txt")]: re.sub(r"\S+\.cc|#.*|COMMENT.*", "", text)
+             for path, text in house.others.items() if path.endswith("CMakeLists.txt")}
+    for path in house.others:
+        stem = pathlib.Path(path).stem
+        names = {"test_": rf"test_\*\.py|\b{stem[5:]}\b", "_test": rf"\b{stem[:-5]}(_test)?\b"}
+        for mark in (stem[:5], stem[-5:]):
+            if path.endswith(".py") and mark in names and not any(
+                    path.startswith(folder) and re.search(names[mark], text)
+                    for folder, text in lists.items()):
+                yield f"{path}: no CMakeLists.txt above it names it, so that nothing runs it"
+
+
 def top_level(house):
     """Files at the top that belong into a folder."""
     for path in sorted(house.root.iterdir()):
@@ -327,8 +341,8 @@ def texts(house):
                 yield f"{path}:{number}: tells how a limit came about, not what it follows from"
 
 
-RULES = [arrows, unused_arrows, circles, places, ground, rows, test_headers, top_level, sizes,
-         signatures, texts]
+RULES = [arrows, unused_arrows, circles, places, ground, rows, test_headers, unlisted_tests,
+         top_level, sizes, signatures, texts]
 
 
 def violations(root, rules=None):

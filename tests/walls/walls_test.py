@@ -133,6 +133,12 @@ class Planted(unittest.TestCase):
             (self.root / "meshes" / "cloth" / name).write_text("", encoding="utf-8")
         self.expect(walls.sizes, "meshes/cloth: ")
 
+    def test_test_that_nothing_runs(self):
+        path = self.root / "tests" / "verification" / "CMakeLists.txt"
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.replace("forces gains edges", "forces edges"), encoding="utf-8")
+        self.expect(walls.unlisted_tests, "program/gains_test.py: no CMakeLists.txt above it")
+
     def test_file_at_the_top(self):
         (self.root / "setup.cfg").write_text("", encoding="utf-8")
         self.expect(walls.top_level, "setup.cfg: stands at the top")

@@ -7,7 +7,7 @@ import re
 import shutil
 import unittest
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import COARSE, LAYERED, InFolder, rows_of, run
 
 SMALL = ["--cells", "4", "--no-budget", "--no-runtime"]
 
@@ -27,9 +27,9 @@ class Gains(InFolder):
         return re.sub("<[^>]*>", " ", text[text.index("<h1>"):text.index("<nav")])
 
     def test_of_one_material_nothing_is_claimed_of_up_sampling(self):
-        text = (CELLS / "layered.prm").read_text().replace("hard: 1e7", "hard: 1e6")
+        text = LAYERED.read_text().replace("hard: 1e7", "hard: 1e6")
         (self.folder / "one.prm").write_text(text)
-        shutil.copy(CELLS / "layered.msh", self.folder)
+        shutil.copy(COARSE / "layered.msh", self.folder)
         status, claims = self.study(self.folder / "one.prm", "--references", "biot", "--strains",
                                     "0.01,0.1")
         self.assertEqual(status, 4)
@@ -49,7 +49,7 @@ class Gains(InFolder):
         self.assertIn("strip-1   ≈ 0", re.sub(" +", lambda gap: " " * min(3, len(gap[0])), page))
 
     def test_a_run_at_ten_per_cent_alone_has_method_claims(self):
-        _, claims = self.study(CELLS / "layered.prm", "--references", "biot", "--strains", "0.1",
+        _, claims = self.study(LAYERED, "--references", "biot", "--strains", "0.1",
                                "--no-report")
         for pair in ("full is closer to biot than its base",
                      "full is closer to biot than localized",
@@ -57,7 +57,7 @@ class Gains(InFolder):
             self.assertEqual(claims[f"{pair} at strain 0.1 (ratio of errors)"]["kind"], "method")
 
     def test_a_run_that_reaches_nothing_says_so(self):
-        status, claims = self.study(CELLS / "layered.prm", "--references", "green",
+        status, claims = self.study(LAYERED, "--references", "green",
                                     "--strains", "60%", load="shear-frame")
         self.assertEqual(status, 4)
         for claim in claims.values():
