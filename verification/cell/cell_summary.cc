@@ -214,9 +214,8 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
        << geometry_text(cell, result);
   for (const Verdict &check : assessed.checks)
   {
-    std::snprintf(line, sizeof(line), "%-4s %s: %.2g (%s)\n", name_of(check.outcome).c_str(),
-                  check.claim.c_str(), check.value, check.limit.c_str());
-    text << line;
+    std::snprintf(line, sizeof(line), ": %.2g (", check.value);
+    text << name_of(check.outcome) << " " << check.claim << line << check.limit << ")\n";
   }
   return text.str();
 }
