@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/clough_tocher.h"
 
+#include "meshes/plain/gauss_rule.h"
+
 #include <Eigen/LU>
 
 namespace homespun::homogenization
@@ -160,5 +162,23 @@ CloughTocher::second_derivatives_at_corners(const int piece) const
           of_products(d, static_cast<Eigen::Index>(m)) * *ordinates_of_corner[r][m];
   }
   return at_corners;
+}
+
+std::vector<WeightedPoint> points_of_pieces(const int n)
+{
+  const meshes::GaussRule rule = meshes::gauss_rule(n);
+  std::vector<WeightedPoint> points;
+  for (int piece = 0; piece < 3; ++piece)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+      {
+        const double out = 0.5 * (1. + rule.points(i)), along = 0.5 * (1. + rule.points(j));
+        PiecePoint point{piece, {out * (1. - along), out * along, 1. - out}, {}};
+        point.in_triangle.setConstant((1. - out) / 3.);
+        point.in_triangle(piece) += point.in_piece(0);
+        point.in_triangle((piece + 1) % 3) += point.in_piece(1);
+        points.push_back({point, rule.weights(i) * rule.weights(j) * out / 6.});
+      }
+  return points;
 }
 } // namespace homespun::homogenization

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <vector>
 
 namespace homespun::homogenization
 {
@@ -52,4 +53,22 @@ private:
   /// Gradients of the barycentric coordinates of each piece, one per column.
   std::array<Eigen::Matrix<double, 2, 3>, 3> gradients;
 };
+
+/// Barycentric coordinates, in its piece and in the triangle, of a point of a triangle.
+struct PiecePoint
+{
+  int piece;
+  Eigen::Vector3d in_piece, in_triangle;
+};
+
+/// A point and its part of the area.
+struct WeightedPoint
+{
+  PiecePoint point;
+  double weight;
+};
+
+/// Gauss's points on lines from the centroid to the sides, n along each and n lines in each piece:
+/// exact to degree 2 n − 2 in each.
+std::vector<WeightedPoint> points_of_pieces(int n);
 } // namespace homespun::homogenization

@@ -14,16 +14,16 @@ namespace homespun::homogenization
 {
 using meshes::at;
 
-const std::array<FieldPoint, n_field_points> &field_points()
+const std::array<PiecePoint, n_field_points> &field_points()
 {
-  static const std::array<FieldPoint, n_field_points> points = []()
+  static const std::array<PiecePoint, n_field_points> points = []()
   {
-    std::array<FieldPoint, n_field_points> all;
+    std::array<PiecePoint, n_field_points> all;
     const Eigen::Vector3d middles[3] = {{0.5, 0.5, 0.}, {0., 0.5, 0.5}, {0.5, 0., 0.5}};
     for (int piece = 0; piece < 3; ++piece)
       for (int m = 0; m < 3; ++m)
       {
-        FieldPoint &point = all[at(3 * piece + m)];
+        PiecePoint &point = all[at(3 * piece + m)];
         point.piece       = piece;
         point.in_piece    = middles[m];
         point.in_triangle.setConstant(middles[m](2) / 3.);

@@ -24,13 +24,7 @@ constexpr int n_field_points = 9;
 /// Three loads, one per column; at point q the rows 3 q ... 3 q + 2 hold 11, 22, 12.
 using FieldOfLoads = Eigen::Matrix<double, 3 * n_field_points, 3>;
 
-/// Barycentric coordinates, in its piece and in the triangle, of a field point.
-struct FieldPoint
-{
-  int piece;
-  Eigen::Vector3d in_piece, in_triangle;
-};
-const std::array<FieldPoint, n_field_points> &field_points();
+const std::array<PiecePoint, n_field_points> &field_points();
 
 /// Second derivatives of the shape functions at the field points, rows 11, 22, 12 each.
 std::array<Eigen::Matrix<double, 3, 12>, n_field_points>

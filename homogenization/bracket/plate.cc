@@ -108,27 +108,19 @@ Eigen::Matrix<double, 27, 12> ThinPlate::curvatures(const int triangle) const
 
 Eigen::VectorXd ThinPlate::pressure() const
 {
-  // Cubic in each piece: corners, middles of sides and centroid, exact to degree 3.
-  constexpr std::array<std::array<double, 4>, 7> rule = {{{1., 0., 0., 0.05},
-                                                          {0., 1., 0., 0.05},
-                                                          {0., 0., 1., 0.05},
-                                                          {0.5, 0.5, 0., 2. / 15.},
-                                                          {0., 0.5, 0.5, 2. / 15.},
-                                                          {0.5, 0., 0.5, 2. / 15.},
-                                                          {1. / 3., 1. / 3., 1. / 3., 0.45}}};
-  Eigen::VectorXd load                                = Eigen::VectorXd::Zero(n_dofs());
+  const std::vector<WeightedPoint> points = points_of_pieces(3); // of cubic ones
+  Eigen::VectorXd load                    = Eigen::VectorXd::Zero(n_dofs());
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
   {
     const CloughTocher its = element(t);
     const double area      = area_of(mesh.triangles[at(t)]);
     const auto dofs        = dofs_of(t);
-    for (int piece = 0; piece < 3; ++piece)
-      for (const auto &[a, b, c, weight] : rule)
-      {
-        const auto rows = its.value_and_gradient(piece, {a, b, c});
-        for (int k = 0; k < 12; ++k)
-          load(dofs[at(k)]) += area / 3. * weight * rows(0, k);
-      }
+    for (const auto &[point, part] : points)
+    {
+      const auto rows = its.value_and_gradient(point.piece, point.in_piece);
+      for (int k = 0; k < 12; ++k)
+        load(dofs[at(k)]) += area * part * rows(0, k);
+    }
   }
   return load;
 }

@@ -5,7 +5,6 @@
 #include "homogenization/bracket/displacement_shapes.h"
 #include "homogenization/bracket/equilibrated_stress.h"
 #include "homogenization/bracket/plate.h"
-#include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/index.h"
 #include "meshes/plain/triangle_kinematics.h"
 
@@ -49,32 +48,6 @@ StrainsOfProducts strains_of_products(const Eigen::Matrix3d &phi)
   return strains;
 }
 
-/// A point of a triangle and its part of the area.
-struct WeightedPoint
-{
-  Eigen::Vector3d barycentric;
-  double weight;
-};
-
-/// Exact to degree 8 in each piece of a Clough-Tocher triangle: Gauss's points on lines through the
-/// centroid.
-std::vector<WeightedPoint> points_of_pieces()
-{
-  const meshes::GaussRule rule = meshes::gauss_rule(5);
-  std::vector<WeightedPoint> points;
-  for (int piece = 0; piece < 3; ++piece)
-    for (int i = 0; i < rule.points.size(); ++i)
-      for (int j = 0; j < rule.points.size(); ++j)
-      {
-        const double out = 0.5 * (1. + rule.points(i)), along = 0.5 * (1. + rule.points(j));
-        Eigen::Vector3d point = Eigen::Vector3d::Constant((1. - out) / 3.);
-        point(piece) += out * (1. - along);
-        point((piece + 1) % 3) += out * along;
-        points.push_back({point, rule.weights(i) * rule.weights(j) * out / 6.});
-      }
-  return points;
-}
-
 /// The membrane of a cell in six-node triangles, two unknowns per vertex and per edge, under
 /// strains that deflections leave: columns of the six products, then of the three mean strains.
 struct MembraneOfCell
@@ -95,7 +68,7 @@ MembraneOfCell::MembraneOfCell(const ThinPlate &plate, const TorusMesh &mesh,
     : loads(Eigen::MatrixXd::Zero(2 * (mesh.n_vertices + mesh.n_edges()), n_columns))
 {
   // e is quartic in each piece of a Clough-Tocher triangle: its products have degree 8.
-  const std::vector<WeightedPoint> points = points_of_pieces();
+  const std::vector<WeightedPoint> points = points_of_pieces(5);
   products.setZero();
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
@@ -118,10 +91,11 @@ MembraneOfCell::MembraneOfCell(const ThinPlate &plate, const TorusMesh &mesh,
     for (const auto &[point, part] : points)
     {
       const double weight          = part * area;
-      const Eigen::Matrix3d values = plate.shapes(t, point).topRows<3>() * its_phi;
+      const Eigen::Vector3d &place = point.in_triangle;
+      const Eigen::Matrix3d values = plate.shapes(t, place).topRows<3>() * its_phi;
       Eigen::Matrix<double, 3, n_columns> e;
       e << strains_of_products(values), Eigen::Matrix3d::Identity();
-      const auto B = strain_displacement<6>(gradients, point);
+      const auto B = strain_displacement<6>(gradients, place);
       matrix.noalias() += weight * B.transpose() * C * B;
       load.noalias() += weight * B.transpose() * C * e;
       products.noalias() += weight * e.transpose() * C * e;

@@ -3,7 +3,6 @@
 
 #include "verification/cell/algebraic_limit.h"
 #include "verification/cell/energy_order.h"
-#include "verification/cell/rolled_sheet.h"
 #include "verification/record/claim.h"
 
 #include <Eigen/LU>
@@ -209,8 +208,9 @@ void add_bracket(const UnitCell &cell, const BracketOptions &options,
 void add_bending(const UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed)
 {
-  assessed.bending         = bending_of(cell, options, report);
-  assessed.bending->rolled = rolled_of(cell, options);
+  assessed.bending = bending_of(cell, options, report);
+  if (assessed.bending->bracket)
+    assessed.bending->roll = roll_of(cell, options);
   for (const Verdict &check : checks_of(*assessed.bending, options))
     assessed.checks.push_back(check);
 }

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "homogenization/bracket/bending_bracket.h"
-#include "homogenization/bracket/rolled_cell.h"
 #include "homogenization/fem/homogenize.h"
 #include "verification/cell/cell_bracket.h"
+#include "verification/cell/rolled_sheet.h"
 #include "verification/record/verdict.h"
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ struct CellBending
   std::string remark;       ///< why there is none, or how adaptivity ended
   bool is_left_out = false; ///< the settings allow none on this mesh
   std::vector<BracketStep> history;
-  std::optional<homogenization::RolledCell> rolled = std::nullopt; ///< where somebody asked for it
+  std::optional<KnownRoll> roll = std::nullopt; ///< where somebody asked for it
 };
 
 /// Brackets D^H on this process alone.

@@ -10,7 +10,6 @@
 #include "verification/cell/cell_summary.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/phase_fields.h"
-#include "verification/cell/rolled_sheet.h"
 #include "verification/cell/shell_sections.h"
 #include "verification/record/json_files.h"
 #include "verification/record/provenance.h"
@@ -169,7 +168,7 @@ void add_bending_json(const CellBending &bending, ordered_json &json)
     json["bending_moduli_bars"] = json_bending_moduli(bars_of_bending_moduli(found));
   }
   json["bending_bracket"] = bracket;
-  json["rolled"]          = bending.rolled ? json_rolled(*bending.rolled) : ordered_json();
+  json["rolled"]          = bending.roll ? json_rolled(*bending.roll) : ordered_json();
   json["bending_history"] = history_json(bending.history);
 }
 

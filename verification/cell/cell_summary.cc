@@ -4,7 +4,6 @@
 #include "homogenization/cell/quadratic_strain.h"
 #include "verification/cell/cell_bars.h"
 #include "verification/cell/energy_order.h"
-#include "verification/cell/rolled_sheet.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/number_text.h"
 
@@ -68,8 +67,8 @@ std::string bending_text(const CellBending &bending)
                 "Bracket of bending, D_lower <= D^H <= D_upper of relative width %.2g, %s\n",
                 found.width, bending.remark.c_str());
   text << line << range_text(found.stiffness);
-  if (bending.rolled)
-    text << roll_text(*bending.rolled) << "\n";
+  if (bending.roll)
+    text << roll_text(*bending.roll) << "\n";
   return text.str();
 }
 

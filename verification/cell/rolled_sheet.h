@@ -11,19 +11,24 @@
 
 namespace homespun::verification
 {
-/// The cell rolled up, on the mesh as given; nothing where the settings allow none on it, or where
-/// it was not found. On this process alone.
-std::optional<homogenization::RolledCell> rolled_of(const homogenization::UnitCell &cell,
-                                                    const BracketOptions &options);
+/// A cell rolled up, on its mesh, or why it is not known.
+struct KnownRoll
+{
+  std::optional<homogenization::RolledCell> rolled;
+  std::string why_not;
+};
+
+/// On this process alone.
+KnownRoll roll_of(const homogenization::UnitCell &cell, const BracketOptions &options);
 
 /// By how much a sheet may be stiffer than D^H says: from the radius on that this leaves, D^H
 /// holds.
 constexpr double tolerated_stiffening = 0.02;
 
-/// From which radius on D^H holds, in the worst direction and along x and y; with a warning on a
-/// second line where cloth folds more tightly than that.
-std::string roll_text(const homogenization::RolledCell &rolled);
+/// From which radius on D^H holds, in the worst direction and along x and y, with a warning on a
+/// second line where cloth folds more tightly than that; or why that is not known.
+std::string roll_text(const KnownRoll &known);
 
-/// The same for each direction from x.
-nlohmann::ordered_json json_rolled(const homogenization::RolledCell &rolled);
+/// The same, and for each direction from x.
+nlohmann::ordered_json json_rolled(const KnownRoll &known);
 } // namespace homespun::verification

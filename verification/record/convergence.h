@@ -84,8 +84,8 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
                             const std::optional<OrderLimit> &together = std::nullopt);
 
 /// The order at h, in sheet sides, of the h^2 and h^(2 lambda) that a corner with the exponent
-/// lambda leaves. Near lambda = 1 their coefficients are large and cancel, h^2 (h^s' − 1) / s' with
-/// s' = 2 lambda − 2, and they part slowly: 2 − s' / (h^−s' − 1).
+/// lambda leaves. Near lambda = 1 their coefficients are large and cancel, h^2 (1 − h^s) / s with
+/// s = 2 lambda − 2, and they part slowly: 2 − s / (h^−s − 1).
 double order_beside_a_corner(double exponent, double h);
 
 /// Judges errors on levels that do not grow evenly, as adaptive meshes do, by the least-squares

@@ -195,7 +195,7 @@ void EquilibratedSheet::assemble_and_solve()
     const double weight                  = area_of(shape_of(t)) / n_field_points;
     Eigen::Matrix<double, 12, 12> matrix = Eigen::Matrix<double, 12, 12>::Zero();
     LocalValues local                    = LocalValues::Zero();
-    for (const homogenization::FieldPoint &point : field_points())
+    for (const homogenization::PiecePoint &point : field_points())
     {
       const auto B = stress_of_airy(its, point.piece, point.in_piece);
       matrix.noalias() += weight * B.transpose() * S * B;
@@ -279,7 +279,7 @@ void EquilibratedSheet::evaluate()
     const double weight      = area_of(shape_of(t)) / n_field_points;
     LocalValues rounded;
     const LocalValues values = local_values(t, rounded);
-    for (const homogenization::FieldPoint &point : field_points())
+    for (const homogenization::PiecePoint &point : field_points())
     {
       const auto B                = stress_of_airy(its, point.piece, point.in_piece);
       const Eigen::Vector3d sigma = B * values, eps = S * sigma;

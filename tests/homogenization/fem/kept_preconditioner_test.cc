@@ -15,7 +15,7 @@ using namespace homespun::homogenization;
 
 namespace
 {
-/// Laplace's operator of each component on a square whose boundary is held.
+/// Laplace's operator of each component on a square whose boundary is held, solved to ten digits.
 class Held
 {
 public:
@@ -30,6 +30,7 @@ public:
         constraints.add_line(dof);
     constraints.close();
     solver = std::make_unique<ElasticSolver>(discretization, constraints);
+    answer = solver->owned_vector();
   }
 
   /// −Laplace's operator minus `shift`, times a factor of each triangle.
@@ -70,7 +71,13 @@ public:
     return all;
   }
 
-  double residual_of(const Vector &answer) const
+  /// @return iterations
+  unsigned int solve(const unsigned int most_iterations = 100)
+  {
+    return kept.solve(*solver, answer, forces(), 1e-10 * forces().l2_norm(), most_iterations);
+  }
+
+  double residual() const
   {
     Vector image(answer);
     solver->matrix.vmult(image, answer);
@@ -81,6 +88,8 @@ public:
   const Discretization discretization;
   dealii::AffineConstraints<double> constraints;
   std::unique_ptr<ElasticSolver> solver;
+  KeptPreconditioner kept;
+  Vector answer;
 };
 } // namespace
 
@@ -90,15 +99,12 @@ TEST(bound_kept_preconditioner, a_factor_of_a_nearby_matrix_takes_few_iterations
 {
   Held held;
   ASSERT_TRUE(held.solver->is_small());
-  KeptPreconditioner kept;
-  ElasticSolver::Vector answer = held.solver->owned_vector();
-  const double target          = 1e-10 * held.forces().l2_norm();
   held.assemble(0.);
-  EXPECT_LE(kept.solve(*held.solver, answer, held.forces(), target, 100), 2u);
-  EXPECT_LE(held.residual_of(answer), 1.1e-10);
+  EXPECT_LE(held.solve(), 2u);
+  EXPECT_LE(held.residual(), 1.1e-10);
   held.assemble(-8.); // the smallest eigenvalue is 2 pi^2
-  const unsigned int used = kept.solve(*held.solver, answer, held.forces(), target, 100);
-  EXPECT_LE(held.residual_of(answer), 1.1e-10);
+  const unsigned int used = held.solve();
+  EXPECT_LE(held.residual(), 1.1e-10);
   EXPECT_GT(used, 2u); // of the factor of another matrix
   EXPECT_LE(used, 12u);
 }
@@ -112,16 +118,13 @@ TEST(bound_kept_preconditioner, a_factor_of_a_distant_matrix_is_given_up_unless_
   for (const bool was_asked_for : {false, true})
   {
     Held held;
-    KeptPreconditioner kept;
-    ElasticSolver::Vector answer = held.solver->owned_vector();
-    const double target          = 1e-10 * held.forces().l2_norm();
     held.assemble(0.);
-    kept.build(*held.solver);
+    held.kept.build(*held.solver);
     if (!was_asked_for)
-      kept.solve(*held.solver, answer, held.forces(), target, 1000);
+      held.solve(1000);
     held.assemble(0., [](const unsigned int triangle) { return std::pow(10., triangle % 7); });
-    const unsigned int used = kept.solve(*held.solver, answer, held.forces(), target, 1000);
-    EXPECT_LE(held.residual_of(answer), 1.1e-10);
+    const unsigned int used = held.solve(1000);
+    EXPECT_LE(held.residual(), 1.1e-10);
     if (was_asked_for)
       EXPECT_GT(used, 36u);
     else
@@ -136,18 +139,15 @@ TEST(exact_kept_preconditioner, an_indefinite_matrix_is_not_solved)
   for (const bool has_factor_of_another : {false, true})
   {
     Held held;
-    KeptPreconditioner kept;
-    ElasticSolver::Vector answer = held.solver->owned_vector();
-    const double target          = 1e-10 * held.forces().l2_norm();
     if (has_factor_of_another)
     {
       held.assemble(0.);
-      kept.solve(*held.solver, answer, held.forces(), target, 100);
+      held.solve();
     }
     held.assemble(30.); // between the first two eigenvalues, 2 pi^2 and 5 pi^2
     try
     {
-      kept.solve(*held.solver, answer, held.forces(), target, 100);
+      held.solve();
       FAIL() << "a matrix that is not definite was solved with";
     }
     catch (const IndefiniteMatrix &found)
@@ -161,7 +161,7 @@ TEST(exact_kept_preconditioner, an_indefinite_matrix_is_not_solved)
       EXPECT_FALSE(has_factor_of_another);
     }
     held.assemble(0.);
-    EXPECT_LE(kept.solve(*held.solver, answer, held.forces(), target, 100), 2u);
-    EXPECT_LE(held.residual_of(answer), 1.1e-10);
+    EXPECT_LE(held.solve(), 2u);
+    EXPECT_LE(held.residual(), 1.1e-10);
   }
 }

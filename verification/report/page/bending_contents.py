@@ -33,7 +33,7 @@ def bending_contents(cell, gallery):
             roll_figure(known["rolled"]),
             f"{cell.name}-least-radius",
             f"{cell.name}: the radius from which on a sheet rolled along each direction is at most"
-            " 2 % stiffer than Dᴴ, guaranteed for the cell as it is meshed. Zero: at any radius.",
+            f" {three(100.0 * known['rolled']['tolerance'])} % stiffer than Dᴴ, guaranteed for the cell as it is meshed. Zero: at any radius.",
         )
     if cell.deflection is not None:
         contents["deflection"] = gallery.add(
