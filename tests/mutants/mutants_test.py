@@ -197,9 +197,8 @@ class Running(InFolder):
     def test_tests_of_the_same_folder_come_before_the_others(self):
         self.assertEqual(run.near_first([[5, 7], [2], [1], [4]], {2, 7, 4}),
                          [[7], [2], [4], [5], [1]])
-        beside = run.suites_beside(patches.ROOT, "meshes/plain/lattice.cc")
-        self.assertIn("meshes.exact_lattice", beside)
-        self.assertNotIn("shell.exact_membrane", beside)
+        names = ["walls", "meshes.plain.exact", "meshes.files.exact", "meshes.plain.bound"]
+        self.assertEqual(run.tests_beside(names, "meshes/plain/lattice.cc"), {2, 4})
 
     def test_what_the_program_notices(self):
         usual = {"status": 4, "claims": ["known"]}

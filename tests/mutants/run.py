@@ -132,13 +132,10 @@ def batches_of(names, seconds, not_asked=NOT_ASKED):
                                                     if of_it >= low]
 
 
-def suites_beside(root, file):
-    """The tests in the folder of tests/ that belongs to the folder of a source file."""
-    folder = pathlib.Path(root) / "tests" / pathlib.Path(file).parent
-    wing = pathlib.Path(file).parts[0]
-    return {f"{wing}.{suite}" for path in folder.glob("*.cc")
-            for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(encoding="utf-8"),
-                                    re.M)}
+def tests_beside(names, file):
+    """Numbers of the tests, from 1, of the folder of a source file: FOLDER.WING.LABEL."""
+    beside = ".".join(pathlib.Path(file).parts[:-1]) + "."
+    return {number for number, name in enumerate(names, 1) if name.startswith(beside)}
 
 
 def near_first(batches, near):
@@ -236,9 +233,7 @@ class Workshop:
     def ask_tests(self, mutant):
         """The first test that fails, or nothing, and the seconds until then."""
         start = time.monotonic()
-        beside = suites_beside(self.copy, mutant.file)
-        near = {number for number, name in enumerate(self.names, 1) if name in beside}
-        for numbers in near_first(self.batches, near):
+        for numbers in near_first(self.batches, tests_beside(self.names, mutant.file)):
             self.failed_log().unlink(missing_ok=True)
             status = self.run("ctest", "--stop-on-failure", "-I",
                               "0,0,0," + ",".join(str(number) for number in numbers),
