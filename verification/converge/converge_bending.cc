@@ -4,11 +4,12 @@
 #include "homogenization/bracket/bending_bracket.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/index.h"
-#include "verification/converge/bent_sheet.h"
+#include "verification/bend/bent_sheet.h"
 #include "verification/converge/converge_cases.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 namespace homespun::verification
@@ -18,15 +19,6 @@ using meshes::at;
 
 namespace
 {
-/// Quads along a side of the sheet, about: on half as many the macro problem is solved once more,
-/// and says how far it is resolved.
-constexpr int n_quads = 80;
-
-int quads_per_cell(const int n)
-{
-  return 2 * std::max(1, n_quads / (2 * n));
-}
-
 /// Judges the order of the deflection with all terms: 2 in sheet sides, or that of corners.
 OrderJudgement judge_deflection(const BendingCell &bent, const BendingLoad &load,
                                 const Series &series, const double floor)
@@ -64,26 +56,28 @@ struct MethodSeries
 ConvergenceResult bend(const BendingCell &bent, const BendingLoad &load, const std::vector<int> &ns)
 {
   std::vector<MethodSeries> methods;
-  for (const char *name : bending_methods)
-    methods.emplace_back(name);
+  for (std::size_t k = 0; k + 1 < bending_methods.size(); ++k) // all but flat triangles
+    methods.emplace_back(bending_methods[k]);
   if (!bent.known.edges)
     methods.resize(2, methods.front());
   ConvergenceResult result;
   double unresolved = 0.; // of the macro problem on the last sheet [k L^2]
   const auto solve  = [&](const int n)
   {
-    const auto start             = std::chrono::steady_clock::now();
-    const BentSheetErrors errors = bending_errors(bent, load, n, quads_per_cell(n));
+    const auto start = std::chrono::steady_clock::now();
+    const BentSheet sheet(bent, load, n, macro_quads_per_cell(n));
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    unresolved = errors.of_macro_mesh / (n * n);
+    const double side = std::sqrt(bent.cell.lattice.area()), length = n * side;
+    unresolved = sheet.of_macro_mesh[methods.size() - 1].position / (length * length);
     for (std::size_t k = 0; k < methods.size(); ++k)
     {
       const auto add = [&](Series &series, const double error) {
-        series.levels.push_back({1. / n, errors.n_dofs, std::nullopt, error, seconds});
+        series.levels.push_back({1. / n, sheet.n_dofs, std::nullopt, error, seconds});
       };
-      add(methods[k].position, errors.of_method[k].position / (n * n));
-      add(methods[k].normal, errors.of_method[k].normal / n);
+      const BendingError error = mean_of(sheet.error_of_method[k]);
+      add(methods[k].position, error.position / (length * length));
+      add(methods[k].normal, error.normal / length);
     }
   };
   for (const int n : ns)

@@ -6,7 +6,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/converge/plate_sheet.h"
+#include "verification/bend/plate_sheet.h"
 #include "verification/ellipticity/default_law.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"

@@ -2,6 +2,7 @@
 // The one list of the commands, in the order of the help: a new one is a folder and a line here.
 #pragma once
 
+#include "verification/bend/bend_command.h"
 #include "verification/converge/converge_command.h"
 #include "verification/drape/drape_command.h"
 #include "verification/homogenize/homogenize_command.h"
@@ -38,7 +39,7 @@ struct Commands
 };
 
 using AllCommands =
-  Commands<CheckCommand, CellsCommand, HomogenizeCommand, StrainCommand, JudgeCommand, DrapeCommand,
-           UpsampleCommand, LoadCommand, StabilityCommand, ConvergeCommand, StressCommand,
-           ReportCommand, VerifyCommand>;
+  Commands<CheckCommand, CellsCommand, HomogenizeCommand, StrainCommand, BendCommand, JudgeCommand,
+           DrapeCommand, UpsampleCommand, LoadCommand, StabilityCommand, ConvergeCommand,
+           StressCommand, ReportCommand, VerifyCommand>;
 } // namespace homespun::verification

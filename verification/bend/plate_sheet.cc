@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/converge/plate_sheet.h"
+#include "verification/bend/plate_sheet.h"
 
 #include "homogenization/bracket/bending_bracket.h"
 #include "meshes/plain/gauss_rule.h"

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The table of a study of bending.
+#pragma once
+
+#include "verification/record/table.h"
+
+#include <limits>
+#include <string>
+
+namespace homespun::verification
+{
+/// bend.csv: the distance of one method from one reference at one curvature, in position and
+/// normal, means over the vertices. In linear theory all are proportional to the curvature, solved
+/// once, and what a clamp or a free edge does to it is of small turns.
+struct BendRow
+{
+  static constexpr const char *file   = "bend.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double bending = 0.; ///< macro curvature, root mean square over the sheet, x cell side [-]
+  std::string reference, method;
+  int cells           = 0;    ///< per side of the sheet
+  int macro_triangles = 0;    ///< of the homogenized sheet
+  int fine_triangles  = 0;    ///< of the reference
+  double curvature    = none; ///< [1/m]
+  double deflection   = none; ///< of the reference [m]
+  double mean         = none; ///< of the position [m]
+  double bar          = none; ///< of that mean: by finer meshes of cell, sheet and macro sheet [m]
+  double interior     = none; ///< mean over vertices of no cell at an edge [m]
+  double edge         = none; ///< mean over the others [m]
+  double normal       = none; ///< angle between the normals [rad]
+  double normal_bar   = none; ///< [rad]
+  double normal_interior   = none; ///< [rad]
+  double normal_edge       = none; ///< [rad]
+  double seconds           = none; ///< of the homogenized sheets and all methods
+  double seconds_reference = none;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &BendRow::cell, Domain::name);
+    column("load", &BendRow::load, Domain::name);
+    column("curvature_times_cell", &BendRow::bending, Domain::positive);
+    column("reference", &BendRow::reference, Domain::name);
+    column("method", &BendRow::method, Domain::name);
+    column("cells", &BendRow::cells, Domain::positive);
+    column("macro_triangles", &BendRow::macro_triangles, Domain::positive);
+    column("fine_triangles", &BendRow::fine_triangles, Domain::positive);
+    column("curvature_per_m", &BendRow::curvature, Domain::positive);
+    column("deflection_mean_m", &BendRow::deflection, Domain::not_negative);
+    column("error_mean_m", &BendRow::mean, Domain::not_negative);
+    column("error_bar_m", &BendRow::bar, Domain::not_negative);
+    column("error_interior_m", &BendRow::interior, Domain::not_negative);
+    column("error_edge_m", &BendRow::edge, Domain::not_negative);
+    column("normal_error_mean_rad", &BendRow::normal, Domain::not_negative);
+    column("normal_error_bar_rad", &BendRow::normal_bar, Domain::not_negative);
+    column("normal_error_interior_rad", &BendRow::normal_interior, Domain::not_negative);
+    column("normal_error_edge_rad", &BendRow::normal_edge, Domain::not_negative);
+    column("seconds_methods", &BendRow::seconds, Domain::not_negative);
+    column("seconds_reference", &BendRow::seconds_reference, Domain::not_negative);
+  }
+};
+} // namespace homespun::verification

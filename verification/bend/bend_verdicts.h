@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What up-sampling of a bent sheet is worth, and the claims about it.
+#pragma once
+
+#include "verification/bend/bend_tables.h"
+#include "verification/record/claim.h"
+#include "verification/record/verdict.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Of the position and of the normal that `full` is closer to the reference than its base, the
+/// better of `affine` and `affine+edges`, which have no deflection of the cell; that it is closer
+/// than `affine`; and the same of `localized`, whose base is `affine`. By more than the error bars
+/// of both; FAIL where it is farther by more than that; open within them, where a method or a bar
+/// is not known, and where both errors are what the solvers leave.
+/// @param rows of one cell and load at one curvature
+std::vector<Verdict> verdicts_on_bending(const std::vector<BendRow> &rows);
+
+/// The claims of verdicts_on_bending().
+void add_owed_of_bending(const std::string &cell, const std::string &load,
+                         std::vector<OwedClaim> &owed);
+} // namespace homespun::verification

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "verification/bend/bent_sheet.h"
+
+#include "meshes/plain/index.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace homespun::verification
+{
+using homogenization::ThinPlate;
+using meshes::at;
+
+namespace
+{
+/// A point in a triangle of coarse_sheet().
+struct CoarsePoint
+{
+  int triangle;
+  Eigen::Vector3d barycentric;
+};
+
+/// @param fraction on the sheet @param n quads along a side
+CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
+{
+  const Eigen::RowVector2d place = fraction * n;
+  const int i                    = std::clamp(static_cast<int>(place(0)), 0, n - 1),
+            j                    = std::clamp(static_cast<int>(place(1)), 0, n - 1);
+  const double f = place(0) - i, g = place(1) - j;
+  if (f >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
+    return {2 * (j * n + i), {1. - f, f - g, g}};
+  return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
+}
+
+/// Of a deflection w: the normal of small slopes is (−w,1, −w,2, 1).
+void set_state(BentState &state, const int v, const Eigen::Vector3d &w_and_gradient)
+{
+  state.row(v) << 0., 0., w_and_gradient(0), -w_and_gradient(1), -w_and_gradient(2), 0.;
+}
+
+/// The homogenized plate of a sheet on a mesh of n x n quads.
+struct MacroPlate
+{
+  MacroPlate(const BendingCell &cell, const meshes::Sheet &sheet, const int n)
+      : sheet(sheet)
+      , n(n)
+      , plate(sheet, meshes::coarse_sheet(sheet.origin, sheet.sides() / n, n, n),
+              {cell.solved.stiffness})
+  {
+  }
+
+  ThinPlate::Values values(const Eigen::RowVector2d &fraction, const Eigen::VectorXd &w) const
+  {
+    const CoarsePoint point = coarse_point(fraction, n);
+    return plate.plate.values(point.triangle, point.barycentric, w);
+  }
+
+  const meshes::Sheet &sheet;
+  const int n;
+  const PlateSheet plate;
+};
+
+/// A homogenized deflection on the fine vertices, with w3 of the cell or without.
+BentState upsampled(const BendingCell &cell, const MacroPlate &macro, const Eigen::VectorXd &w,
+                    const bool with_fluctuation)
+{
+  const meshes::Sheet &sheet = macro.sheet;
+  BentState state(sheet.mesh.n_vertices(), 6);
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    const ThinPlate::Values values = macro.values(sheet.fraction(sheet.mesh.vertices.row(v)), w);
+    Eigen::Vector3d here           = values.head<3>();
+    if (with_fluctuation)
+      here += cell.solved.deflection.middleRows<3>(
+                3 * cell.torus.vertex_of_original[at(sheet.cell_vertex(v))]) *
+              values.tail<3>();
+    set_state(state, v, here);
+  }
+  return state;
+}
+
+/// Two flat triangles per cell through a homogenized deflection.
+BentState flat(const MacroPlate &macro, const Eigen::VectorXd &w)
+{
+  const meshes::Sheet &sheet = macro.sheet;
+  const meshes::TriangleMesh coarse =
+    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+  BentState state(sheet.mesh.n_vertices(), 6);
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    const CoarsePoint point = coarse_point(sheet.fraction(sheet.mesh.vertices.row(v)), sheet.n1);
+    Eigen::Matrix<double, 3, 2> corners;
+    Eigen::Vector3d of_corners;
+    for (int k = 0; k < 3; ++k)
+    {
+      corners.row(k) = coarse.vertices.row(coarse.triangles(point.triangle, k));
+      of_corners(k)  = macro.values(sheet.fraction(corners.row(k)), w)(0);
+    }
+    Eigen::Matrix2d legs;
+    legs << corners.row(1) - corners.row(0), corners.row(2) - corners.row(0);
+    const Eigen::Vector2d rise(of_corners(1) - of_corners(0), of_corners(2) - of_corners(0));
+    const Eigen::Vector2d slope = legs.inverse() * rise;
+    set_state(state, v, {point.barycentric.dot(of_corners), slope(0), slope(1)});
+  }
+  return state;
+}
+} // namespace
+
+BendingCell::BendingCell(const homogenization::UnitCell &cell)
+    : cell(cell)
+    , bending_stiffness_of_phase(cell.bending_stiffness_of_phase())
+    , torus(homogenization::glued(cell.mesh, cell.lattice))
+    , solved(homogenization::solve_plate_cell(torus, bending_stiffness_of_phase))
+    , known(known_edges_of_plate(cell))
+{
+}
+
+bool BendingCell::is_of_one_material() const
+{
+  // The slopes across the sides of the mesh.
+  return solved.deflection.bottomRows(torus.n_edges()).cwiseAbs().maxCoeff() <
+         1e-9 * std::sqrt(cell.lattice.area());
+}
+
+Eigen::VectorXd position_errors(const BentState &difference)
+{
+  return difference.leftCols<3>().rowwise().norm();
+}
+
+Eigen::VectorXd normal_errors(const BentState &difference)
+{
+  return difference.rightCols<3>().rowwise().norm();
+}
+
+BendingError mean_of(const BentState &difference)
+{
+  return {position_errors(difference).mean(), normal_errors(difference).mean()};
+}
+
+int macro_quads_per_cell(const int n_cells)
+{
+  return 2 * std::max(1, 80 / (2 * n_cells));
+}
+
+BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int n,
+                     const int quads_per_cell)
+    : sheet(meshes::tile(cell.cell.mesh, cell.cell.lattice, n, n))
+{
+  using Clock      = std::chrono::steady_clock;
+  const auto since = [](const Clock::time_point start)
+  { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const auto start_of_reference = Clock::now();
+  const PlateSheet fine(sheet, sheet.mesh, cell.bending_stiffness_of_phase);
+  const Eigen::VectorXd resolved = fine.deflection(load, 1.);
+  n_dofs                         = static_cast<unsigned long>(fine.plate.n_dofs());
+  BentState reference(sheet.mesh.n_vertices(), 6);
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+    set_state(reference, v, resolved.segment<3>(3 * v));
+  seconds_reference = since(start_of_reference);
+  const auto start  = Clock::now();
+  // A pressure acts on the material, not on holes.
+  const double covered = meshes::signed_areas(cell.cell.mesh).sum() / cell.cell.lattice.area();
+  for (const int n_quads : {n * quads_per_cell / 2, n * quads_per_cell})
+  {
+    const MacroPlate macro(cell, sheet, n_quads);
+    n_macro_triangles               = 2 * n_quads * n_quads;
+    const Eigen::VectorXd w0        = macro.plate.deflection(load, covered);
+    const double curvature          = macro.plate.mean_curvature(w0);
+    std::vector<Eigen::VectorXd> ws = {w0};
+    if (cell.known.edges)
+      ws.push_back(w0 + macro.plate.correction(load, *cell.known.edges, w0));
+    std::vector<std::pair<std::size_t, BentState>> states;
+    for (std::size_t k = 0; k < ws.size(); ++k)
+      for (const std::size_t with_fluctuation : {0, 1})
+        states.emplace_back(2 * k + with_fluctuation,
+                            upsampled(cell, macro, ws[k], with_fluctuation == 1));
+    states.emplace_back(bending_methods.size() - 1, flat(macro, w0));
+    for (const auto &[method, state] : states)
+    {
+      const BentState error     = (state - reference) / curvature;
+      const BendingError before = error_of_method[method].size() > 0
+                                    ? mean_of(error_of_method[method])
+                                    : BendingError(),
+                         now    = mean_of(error);
+      of_macro_mesh[method]     = {std::abs(now.position - before.position),
+                                   std::abs(now.normal - before.normal)};
+      error_of_method[method]   = error;
+    }
+    deflection = reference.col(2).cwiseAbs().mean() / curvature;
+  }
+  seconds = since(start);
+}
+} // namespace homespun::verification
