@@ -11,7 +11,7 @@ namespace homespun::verification
 struct BendCommand
 {
   using Options = BendStudyOptions;
-  using Tables  = TablesOf<BendRow>;
+  using Tables  = TablesOf<BendRow, WrinkleRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_bend_study;
 };

@@ -2,11 +2,10 @@
 #include "verification/bend/bend_study.h"
 
 #include "meshes/plain/errors.h"
-#include "meshes/plain/index.h"
-#include "meshes/plain/refine.h"
+#include "meshes/plain/sheet.h"
 #include "verification/bend/bend_tables.h"
 #include "verification/bend/bend_verdicts.h"
-#include "verification/bend/bent_sheet.h"
+#include "verification/bend/wrinkles.h"
 #include "verification/cell/cell_bending.h"
 #include "verification/cell/discretization_distance.h"
 #include "verification/cell/study_of_cells.h"
@@ -17,15 +16,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 
 namespace homespun::verification
 {
 using homogenization::UnitCell;
-using meshes::at;
 
 void make_quick(BendStudyOptions &options)
 {
@@ -34,64 +30,8 @@ void make_quick(BendStudyOptions &options)
 
 namespace
 {
-/// A field of a sheet of the refined cell, at the vertices of that of the drawn one.
-BentState at_drawn_vertices(const meshes::Sheet &drawn, const meshes::Sheet &refined,
-                            const BentState &field)
-{
-  const auto key = [](const meshes::Sheet &sheet, const int v)
-  { return std::tuple(sheet.cell(v, 0), sheet.cell(v, 1), sheet.cell_vertex(v)); };
-  std::map<std::tuple<int, int, int>, int> vertex;
-  for (int v = 0; v < refined.mesh.n_vertices(); ++v)
-    vertex[key(refined, v)] = v;
-  BentState found(drawn.mesh.n_vertices(), field.cols());
-  for (int v = 0; v < drawn.mesh.n_vertices(); ++v)
-    found.row(v) = field.row(vertex.at(key(drawn, v)));
-  return found;
-}
-
-UnitCell refined_cell(const UnitCell &cell)
-{
-  UnitCell finer = cell;
-  finer.mesh     = meshes::refined(cell.mesh, 1);
-  return finer;
-}
-
-/// A cell, once as it is drawn and once on its refined mesh.
-struct CellTwice
-{
-  explicit CellTwice(const UnitCell &cell)
-      : drawn(cell)
-      , refined_unit(refined_cell(cell))
-      , finer(refined_unit)
-  {
-  }
-
-  const BendingCell drawn;
-  const UnitCell refined_unit;
-  const BendingCell finer;
-};
-
-/// Bars of the errors of all methods, 1/m times curvature: what finer meshes of cell and sheet
-/// change on a small sheet, in the same sizes k eps² and k eps, three times, because two meshes
-/// confirm no order; and three times what halved quads change on the sheet itself.
-BentSheet::OfMethods<std::optional<BendingError>>
-bars_of(const CellTwice &cell, const BendingLoad &load, const int n_small, const BentSheet &sheet)
-{
-  const BentSheet small(cell.drawn, load, n_small, macro_quads_per_cell(n_small)),
-    finer(cell.finer, load, n_small, macro_quads_per_cell(n_small));
-  BentSheet::OfMethods<std::optional<BendingError>> bars;
-  for (std::size_t k = 0; k < bars.size(); ++k)
-    if (small.error_of_method[k].size() > 0 && finer.error_of_method[k].size() > 0)
-    {
-      const BendingError mesh =
-        mean_of(small.error_of_method[k] -
-                at_drawn_vertices(small.sheet, finer.sheet, finer.error_of_method[k]));
-      const BendingError &macro = sheet.of_macro_mesh[k];
-      bars[k] = BendingError{safety_unconfirmed * (mesh.position + macro.position),
-                             safety_unconfirmed * (mesh.normal + macro.normal)};
-    }
-  return bars;
-}
+/// Of D^H, in a wave of wrinkles.
+const std::vector<int> cells_per_wave = {4, 6};
 
 class BendStudy final : public StudyOfCells
 {
@@ -131,7 +71,8 @@ private:
 
   void open_tables() override
   {
-    table = std::make_unique<Table<BendRow>>(options.output);
+    table         = std::make_unique<Table<BendRow>>(options.output);
+    wrinkle_table = std::make_unique<Table<WrinkleRow>>(options.output);
   }
 
   void work() override
@@ -146,7 +87,8 @@ private:
     on_root(communicator,
             [&]()
             {
-              Progress progress(!options.quiet, static_cast<int>(cells().size() * loads.size()));
+              Progress progress(!options.quiet,
+                                static_cast<int>(cells().size() * (loads.size() + 1)));
               for (std::size_t k = 0; k < cells().size(); ++k)
               {
                 write_cell(cells()[k], assessed[k]);
@@ -157,7 +99,13 @@ private:
 
   void solve(const UnitCell &cell, Progress &progress)
   {
-    std::unique_ptr<CellTwice> twice; // made where a load is missing
+    std::unique_ptr<CellTwice> made; // where something is missing
+    const auto twice = [&]() -> const CellTwice &
+    {
+      if (!made)
+        made = std::make_unique<CellTwice>(cell);
+      return *made;
+    };
     for (const BendingLoad &load : loads)
     {
       progress.milestone(cell.name + ", " + load.name);
@@ -168,19 +116,25 @@ private:
       last.reference = linear;
       last.method    = bending_methods.back(); // which is of every cell
       if (!table->contains(last))
-      {
-        if (!twice)
-          twice = std::make_unique<CellTwice>(cell);
-        add_rows(*twice, load);
-      }
+        add_rows(twice(), load);
       progress.done();
     }
+    progress.milestone(cell.name + ", wrinkles");
+    WrinkleRow last;
+    last.cell           = cell.name;
+    last.axis           = 2;
+    last.cells_per_wave = cells_per_wave.back();
+    if (!wrinkle_table->contains(last))
+      for (const WrinkleRow &row : wrinkles(twice(), cells_per_wave))
+        wrinkle_table->append_if_missing(row);
+    progress.done();
   }
 
   void add_rows(const CellTwice &cell, const BendingLoad &load)
   {
     const BentSheet sheet(cell.drawn, load, options.n_cells, macro_quads_per_cell(options.n_cells));
-    const auto bars   = bars_of(cell, load, n_small(), sheet);
+    const auto bars =
+      carried_bars(distance_of_meshes(cell, load, n_small()), 1. * options.n_cells / n_small());
     const double side = std::sqrt(cell.drawn.cell.lattice.area());
     for (const double bending : options.curvatures)
       for (std::size_t k = 0; k < bending_methods.size(); ++k)
@@ -212,8 +166,9 @@ private:
         row.normal_edge     = normal_edge;
         if (bars[k])
         {
-          row.bar        = curvature * bars[k]->position;
-          row.normal_bar = curvature * bars[k]->normal;
+          const BendingError &macro = sheet.of_macro_mesh[k];
+          row.bar        = curvature * (bars[k]->position + safety_unconfirmed * macro.position);
+          row.normal_bar = curvature * (bars[k]->normal + safety_unconfirmed * macro.normal);
         }
         row.seconds           = sheet.seconds;
         row.seconds_reference = sheet.seconds_reference;
@@ -252,12 +207,17 @@ private:
 
   std::vector<std::string> notes() const
   {
-    return {"Errors are means over the vertices. The size of a fluctuation is curvature x cell "
-            "side² in position and curvature x cell side in the normal.",
-            "An error bar is three times what a refined mesh of cell and sheet changes on " +
-              std::to_string(n_small()) + " x " + std::to_string(n_small()) +
-              " cells, with three times what halved quads of the homogenized sheet change on the "
-              "sheet itself."};
+    return {
+      "Errors are means over the vertices. The size of a fluctuation is curvature x cell "
+      "side² in position and curvature x cell side in the normal.",
+      "An error bar is three times what a refined mesh of cell and sheet changes on " +
+        std::to_string(n_small()) + " x " + std::to_string(n_small()) +
+        " cells, in position times the ratio of the sheets' sides, with three times what "
+        "halved quads of the homogenized sheet change on the "
+        "sheet itself.",
+      "Wrinkles: waves out of plane of an infinite sheet that is pressed along an axis and held "
+      "by an elastic foundation, as a sheet of length L that is pulled across by T is, by "
+      "T (pi/L)^2. The foundation is the one on which D^H has the number of cells per wave."};
   }
 
   static constexpr const char *linear = "linear";
@@ -265,6 +225,7 @@ private:
   std::vector<BendingLoad> loads;
   // On the first rank alone:
   std::unique_ptr<Table<BendRow>> table;
+  std::unique_ptr<Table<WrinkleRow>> wrinkle_table;
 };
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of a study of bending.
+// The tables of a study of bending.
 #pragma once
 
 #include "verification/record/table.h"
@@ -60,6 +60,42 @@ struct BendRow
     column("normal_error_edge_rad", &BendRow::normal_edge, Domain::not_negative);
     column("seconds_methods", &BendRow::seconds, Domain::not_negative);
     column("seconds_reference", &BendRow::seconds_reference, Domain::not_negative);
+  }
+};
+
+/// wrinkles.csv: the compression along an axis of the lattice, and the wavelength, at which an
+/// infinite sheet on an elastic foundation leaves its plane; resolved on one cell, and by D^H.
+struct WrinkleRow
+{
+  static constexpr const char *file   = "wrinkles.csv";
+  static constexpr std::size_t n_keys = 3;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell;
+  int axis                       = 1;
+  int cells_per_wave             = 0;    ///< of D^H
+  double foundation              = none; ///< T (pi/L)^2 of a sheet of length L pulled by T [N/m^3]
+  double wavelength              = none; ///< [m]
+  double wavelength_bar          = none; ///< by a finer mesh [m]
+  double homogenized_wavelength  = none; ///< of D^H [m]
+  double compression             = none; ///< [N/m]
+  double compression_bar         = none; ///< by a finer mesh [N/m]
+  double homogenized_compression = none; ///< of D^H [N/m]
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &WrinkleRow::cell, Domain::name);
+    column("axis", &WrinkleRow::axis, Domain::positive);
+    column("cells_per_wave", &WrinkleRow::cells_per_wave, Domain::positive);
+    column("foundation_N_per_m3", &WrinkleRow::foundation, Domain::positive);
+    column("wavelength_m", &WrinkleRow::wavelength, Domain::positive);
+    column("wavelength_bar_m", &WrinkleRow::wavelength_bar, Domain::not_negative);
+    column("homogenized_wavelength_m", &WrinkleRow::homogenized_wavelength, Domain::positive);
+    column("compression_N_per_m", &WrinkleRow::compression, Domain::positive);
+    column("compression_bar_N_per_m", &WrinkleRow::compression_bar, Domain::not_negative);
+    column("homogenized_compression_N_per_m", &WrinkleRow::homogenized_compression,
+           Domain::positive);
   }
 };
 } // namespace homespun::verification

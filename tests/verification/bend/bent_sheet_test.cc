@@ -3,7 +3,7 @@
 // in k eps², with D^H alone it grows as the number of cells; any term of the wrong sign, side or
 // size brings that back.
 #include "tests/homogenization/cell/cells.h"
-#include "verification/bend/bent_sheet.h"
+#include "verification/bend/cell_twice.h"
 
 #include <gtest/gtest.h>
 
@@ -108,6 +108,30 @@ TEST(exact_bent_sheet, of_one_material_is_the_homogenized_plate)
     const auto errors = errors_of(cell, load.name, 4, 6);
     for (const Method method : {affine, localized, with_edges, full})
       EXPECT_LT(errors[method].position, 1e-9) << load.name;
+  }
+}
+
+// What carries an error bar from a small sheet to a large one: meshes move slips and beams of
+// edges, and with them the normal by a part of k eps, the position by that times the sheet's side.
+TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_sheet)
+{
+  const homogenization::UnitCell unit =
+    tests::cell_of(tests::square_lattice(side), 4, 10,
+                   {homogenization::isotropic("soft", 1e6, 0.1, 5e-4, 400.),
+                    homogenization::isotropic("hard", 1e7, 0.4, 5e-4, 400.)},
+                   [](const double, const double f2) { return f2 < 0.3 ? 0 : 1; });
+  const CellTwice cell(unit);
+  for (const char *load : {"roll", "pressure"})
+  {
+    const auto small   = distance_of_meshes(cell, load_of(load), 3),
+               carried = carried_bars(small, 2.),
+               large   = distance_of_meshes(cell, load_of(load), 6);
+    for (std::size_t m = 0; m < large.size(); ++m)
+    {
+      EXPECT_LT(large[m]->position, carried[m]->position) << load << ' ' << bending_methods[m];
+      EXPECT_LT(large[m]->normal, carried[m]->normal) << load << ' ' << bending_methods[m];
+      EXPECT_GT(2. * large[m]->position, small[m]->position) << "nothing was measured";
+    }
   }
 }
 

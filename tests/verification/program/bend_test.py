@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+"""homespun bend: error of an up-sampled sheet that bends, against its curvature."""
+import json
+import unittest
+
+import broken_cells_test
+from cli import InFolder, cut, rows_of, run
+
+LOADS = ["roll", "cantilever-2", "twist"]
+
+
+class Bend(InFolder):
+    def bend(self, cell, *options, statuses=(0, 1, 4)):
+        """The rows of bend.csv and the verdicts."""
+        output = self.folder / "out"
+        result = run("bend", cell, "--cells", "4", *options, "--no-report", "--output", output)
+        self.assertIn(result.returncode, statuses, result.stdout + result.stderr)
+        claims = json.loads((output / "verdicts.json").read_text())["verdicts"]
+        return rows_of(output / "bend.csv"), [one for one in claims
+                                              if one["id"].startswith("bent-closer")]
+
+    def test_rows_are_proportional_to_the_curvature_and_full_is_the_closest_with_bars(self):
+        rows, claims = self.bend(broken_cells_test.Cell().write(self.folder),
+                                 "--curvatures", "0.1,0.01", "--loads", ",".join(LOADS))
+        self.assertEqual(list(dict.fromkeys(row["load"] for row in rows)), LOADS)
+        errors = {(row["load"], row["method"], float(row["curvature_times_cell"])): row
+                  for row in rows}
+        self.assertEqual(len(errors), len(LOADS) * 2 * 5)
+        for (load, method, bending), row in errors.items():
+            other = errors[load, method, 0.1]
+            for name in ("error_mean_m", "error_bar_m", "normal_error_mean_rad"):
+                self.assertAlmostEqual(float(row[name]) / float(other[name]), bending / 0.1,
+                                       delta=1e-9, msg=(load, method, name))
+            closest = errors[load, "full", bending]
+            for name, bar in (("error_mean_m", "error_bar_m"),
+                              ("normal_error_mean_rad", "normal_error_bar_rad")):
+                self.assertLess(float(closest[name]),
+                                float(row[name]) + float(row[bar]) + float(closest[bar]),
+                                (load, method, name))
+        self.assertEqual(len(claims), len(LOADS) * 2 * 3)
+        for one in claims:
+            if one["id"] == "bent-closer.affine" and "position" in one["claim"]:
+                self.assertEqual(one["verdict"], "PASS", one)
+
+    def test_of_one_material_nothing_is_claimed(self):
+        cell = broken_cells_test.Cell()
+        cell.keys["Young's modulus"] = "soft: 1e6, hard: 1e6"
+        rows, claims = self.bend(cell.write(self.folder), "--loads", "pressure", statuses=(4,))
+        self.assertEqual({one["verdict"] for one in claims}, {"INCONCLUSIVE"})
+        size = {row["method"]: float(row["error_mean_m"]) for row in rows}
+        self.assertAlmostEqual(size["affine"] / size["localized"], 1., delta=1e-9)
+
+        for row in rows_of(self.folder / "out/wrinkles.csv"):
+            for what in ("wavelength_m", "compression_N_per_m"):
+                self.assertAlmostEqual(float(row[what]) / float(row["homogenized_" + what]), 1.,
+                                       delta=2e-3, msg=row)
+
+    def test_wrinkles_of_d_h_err_by_order_two_in_cells_per_wave(self):
+        self.bend(broken_cells_test.Cell().write(self.folder), "--loads", "roll")
+        off = {}
+        for row in rows_of(self.folder / "out/wrinkles.csv"):
+            for what in ("wavelength_m", "compression_N_per_m"):
+                off[row["axis"], what, row["cells_per_wave"]] = \
+                    float(row[what]) / float(row["homogenized_" + what]) - 1.
+        for axis in "12":
+            for what in ("wavelength_m", "compression_N_per_m"):
+                ratio = off[axis, what, "4"] / off[axis, what, "6"]
+                self.assertAlmostEqual(ratio, (6 / 4) ** 2, delta=1., msg=(axis, what, off))
+        # Across the halves a wave lives in the soft one.
+        self.assertLess(off["2", "compression_N_per_m", "4"], -0.03)
+
+    def test_of_a_cell_with_holes_the_terms_of_edges_are_missing_and_that_is_said(self):
+        cell = broken_cells_test.Cell()
+        cell.keep(lambda i, j: (i, j) != (3, 3))
+        rows, claims = self.bend(cell.write(self.folder), "--loads", "roll")
+        self.assertEqual({row["method"] for row in rows}, {"affine", "localized", "flat"})
+        self.assertIn("no terms of edges", " ".join(one["limit"] for one in claims))
+        left_out = json.loads((self.folder / "out/study.json").read_text())["left_out"]
+        self.assertTrue([one for one in left_out if "terms of edges" in one["what"]
+                         and "holes" in one["why"]], left_out)
+
+    def test_a_run_is_taken_up_where_it_ended(self):
+        cell = broken_cells_test.Cell().write(self.folder)
+        first, _ = self.bend(cell, "--loads", "roll,twist")
+        path = self.folder / "out/bend.csv"
+        lines = path.read_text().splitlines(keepends=True)
+        path.write_text("".join(line for line in lines if ",twist," not in line))
+        cut(self.folder / "out")
+        again, _ = self.bend(cell, "--loads", "roll,twist")
+        key = lambda row: [row[name] for name in row if not name.startswith("seconds")]
+        self.assertEqual([key(row) for row in again], [key(row) for row in first])
+        self.assertEqual([row["seconds_reference"] for row in again if row["load"] == "roll"],
+                         [row["seconds_reference"] for row in first if row["load"] == "roll"])
+
+    def test_bad_options_are_refused_each_with_its_name(self):
+        result = run("bend", broken_cells_test.Cell().write(self.folder), "--loads", "roll,fold",
+                     "--curvatures", "0.1,-1", "--output", self.folder / "out")
+        self.assertEqual(result.returncode, 2)
+        for word in ("--loads", "fold", "cantilever-1", "--curvatures", "-1"):
+            self.assertIn(word, result.stderr)
+        self.assertFalse((self.folder / "out").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

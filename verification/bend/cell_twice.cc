@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "verification/bend/cell_twice.h"
+
+#include "meshes/plain/refine.h"
+#include "verification/cell/discretization_distance.h"
+
+#include <map>
+#include <tuple>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+/// A field of a sheet of the refined cell, at the vertices of that of the drawn one.
+BentState at_drawn_vertices(const meshes::Sheet &drawn, const meshes::Sheet &refined,
+                            const BentState &field)
+{
+  const auto key = [](const meshes::Sheet &sheet, const int v)
+  { return std::tuple(sheet.cell(v, 0), sheet.cell(v, 1), sheet.cell_vertex(v)); };
+  std::map<std::tuple<int, int, int>, int> vertex;
+  for (int v = 0; v < refined.mesh.n_vertices(); ++v)
+    vertex[key(refined, v)] = v;
+  BentState found(drawn.mesh.n_vertices(), field.cols());
+  for (int v = 0; v < drawn.mesh.n_vertices(); ++v)
+    found.row(v) = field.row(vertex.at(key(drawn, v)));
+  return found;
+}
+
+UnitCell refined_cell(const UnitCell &cell)
+{
+  UnitCell finer = cell;
+  finer.mesh     = meshes::refined(cell.mesh, 1);
+  return finer;
+}
+} // namespace
+
+CellTwice::CellTwice(const UnitCell &cell)
+    : drawn(cell)
+    , refined_unit(refined_cell(cell))
+    , finer(refined_unit)
+{
+}
+
+OptionalErrors distance_of_meshes(const CellTwice &cell, const BendingLoad &load, const int n)
+{
+  const BentSheet drawn(cell.drawn, load, n, macro_quads_per_cell(n)),
+    finer(cell.finer, load, n, macro_quads_per_cell(n));
+  OptionalErrors distances;
+  for (std::size_t k = 0; k < distances.size(); ++k)
+    if (drawn.error_of_method[k].size() > 0 && finer.error_of_method[k].size() > 0)
+      distances[k] = mean_of(drawn.error_of_method[k] -
+                             at_drawn_vertices(drawn.sheet, finer.sheet, finer.error_of_method[k]));
+  return distances;
+}
+
+OptionalErrors carried_bars(const OptionalErrors &distances, const double ratio)
+{
+  OptionalErrors bars = distances;
+  for (auto &bar : bars)
+    if (bar)
+      *bar = {safety_unconfirmed * ratio * bar->position, safety_unconfirmed * bar->normal};
+  return bars;
+}
+} // namespace homespun::verification
