@@ -65,8 +65,9 @@ MAY_INCLUDE = {
                             "verification/method", "verification/periodic_cell",
                             "homogenization/bracket", "localization"}
     | MESHES | CELLS | SHELL,
+    "verification/bend": {"verification/cell", "homogenization/bracket", "homogenization/cell"},
     "verification/converge": {"verification/reference", "verification/ellipticity",
-                              "verification/cell", "verification/method",
+                              "verification/bend", "verification/cell", "verification/method",
                               "homogenization/bracket", "homogenization/algebra", "localization"}
     | MESHES | CELLS | SHELL,
     "verification/drape": {"verification/law", "verification/reference",
@@ -86,7 +87,7 @@ MAY_INCLUDE = {
                            "verification/drape"},
     "verification/verify": {"meshes/plain", "verification/record", "verification/command",
                             "verification/cell", "verification/homogenize", "verification/strain",
-                            "verification/converge", "verification/drape",
+                            "verification/bend", "verification/converge", "verification/drape",
                             "verification/periodic", "verification/stress"} | CELLS,
     "verification/program": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/command", "verification/ellipticity",
@@ -94,9 +95,9 @@ MAY_INCLUDE = {
                              "verification/reference", "verification/judge",
                              "verification/verify"} | CELLS,
 }
-STUDIES = {"verification/homogenize", "verification/strain", "verification/converge",
-           "verification/drape", "verification/stress", "verification/periodic",
-           "verification/upsample"}
+STUDIES = {"verification/homogenize", "verification/strain", "verification/bend",
+           "verification/converge", "verification/drape", "verification/stress",
+           "verification/periodic", "verification/upsample"}
 for study in STUDIES:
     MAY_INCLUDE[study] |= {"meshes/plain", "verification/record", "verification/command"}
 MAY_INCLUDE["verification/program"] |= STUDIES  # its one list of commands

@@ -2,7 +2,6 @@
 // homespun bend: error of an up-sampled sheet that bends.
 #include "verification/bend/bend_command.h"
 
-#include "verification/bend/plate_sheet.h"
 #include "verification/command/study_arguments.h"
 #include "verification/record/number_text.h"
 
@@ -16,14 +15,6 @@ namespace homespun::verification
 {
 namespace
 {
-std::vector<std::string> names_of_loads()
-{
-  std::vector<std::string> names;
-  for (const BendingLoad &load : bending_loads)
-    names.emplace_back(load.name);
-  return names;
-}
-
 void check_bend_arguments(BendStudyOptions &study)
 {
   ArgumentFaults faults;
@@ -39,7 +30,7 @@ void check_bend_arguments(BendStudyOptions &study)
                                          std::pair("--loads", study.loads.empty())})
     if (is_empty)
       faults.add(std::string(option) + ": found nothing; expected at least one");
-  faults.check_names("--loads", study.loads, names_of_loads());
+  faults.check_names("--loads", study.loads, names_of_bending_loads());
   faults.throw_if_any();
 }
 } // namespace
@@ -51,7 +42,6 @@ void BendCommand::add(CommandLine &line)
     "bend", "Error of a bent sheet, in position and normal, against its curvature (bend.csv)");
   const auto arguments    = std::make_shared<Arguments>();
   BendStudyOptions &study = arguments->study;
-  study.loads             = names_of_loads();
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   CLI::Option *cells = command->add_option("--cells", study.n_cells, "Cells per side of the sheet")
                          ->check(CLI::Range(1, 100))

@@ -23,11 +23,6 @@ namespace homespun::verification
 {
 using homogenization::UnitCell;
 
-void make_quick(BendStudyOptions &options)
-{
-  options.n_cells = 5;
-}
-
 namespace
 {
 /// Of D^H, in a wave of wrinkles.

@@ -12,10 +12,13 @@
 
 namespace homespun::verification
 {
+/// The names of bending_loads.
+std::vector<std::string> names_of_bending_loads();
+
 struct BendStudyOptions : StudyOptions
 {
-  int n_cells = 10;                                                   ///< per side of the sheet
-  std::vector<std::string> loads;                                     ///< names of bending_loads
+  int n_cells                    = 10; ///< per side of the sheet
+  std::vector<std::string> loads = names_of_bending_loads();
   std::vector<double> curvatures = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}; ///< x cell side, ascending
   int n_cells_of_error_bar       = 3; ///< per side of the small sheet of the error bars
 };

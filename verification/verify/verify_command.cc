@@ -95,7 +95,8 @@ void VerifyCommand::add(CommandLine &line)
   command->footer(
     "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of "
     "validity),\n"
-    "load (pulled by 5 %), stability (pressed), converge (observed orders), stress (stability "
+    "bend (bent sheets, onset of wrinkles), load (pulled by 5 %), stability (pressed), converge "
+    "(observed orders), stress (stability "
     "map), drape\n"
     "(hang and pull in motion against biot).\n"
     "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of "

@@ -9,8 +9,8 @@ namespace homespun::verification
 {
 const std::vector<std::string> &verify_parts()
 {
-  static const std::vector<std::string> parts = {"homogenize", "strain", "load", "stability",
-                                                 "converge",   "stress", "drape"};
+  static const std::vector<std::string> parts = {"homogenize", "strain",   "bend",   "load",
+                                                 "stability",  "converge", "stress", "drape"};
   return parts;
 }
 

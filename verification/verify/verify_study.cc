@@ -4,6 +4,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
+#include "verification/bend/bend_study.h"
 #include "verification/cell/assessed_cells.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/command/data_folder.h"
@@ -98,6 +99,8 @@ private:
                 [&](const std::string &folder) { return homogenize(cell, folder); });
     else if (part == "strain")
       attempt(part, part, [&](const std::string &folder) { return strain(folder); });
+    else if (part == "bend")
+      attempt(part, part, [&](const std::string &folder) { return bend(folder); });
     else if (part == "load")
       attempt(part, part, [&](const std::string &folder) { return load(folder); });
     else if (part == "stability")
@@ -166,6 +169,14 @@ private:
     if (options.is_quick)
       make_quick(study);
     return of_cells(study, run_strain_study, folder);
+  }
+
+  std::vector<Verdict> bend(const std::string &folder) const
+  {
+    BendStudyOptions study;
+    if (options.is_quick)
+      make_quick(study);
+    return of_cells(study, run_bend_study, folder);
   }
 
   /// Pulled along axis 1, sides free.

@@ -13,7 +13,7 @@ from cli import LAYERED, PROGRAM, InFolder, run
 FULL = pathlib.Path(PROGRAM).with_name("homespun-full")
 CELL = LAYERED
 COMMANDS = ("check", "homogenize", "strain", "drape", "upsample", "stress", "converge", "verify",
-            "report", "cells", "periodic")
+            "report", "cells", "periodic", "judge", "bend")
 AT_ONCE = [("--help",), ("--version",), (), ("frobnicate",), ("strain", "--frobnicate"),
            ("check",), ("check", CELL), ("check", "nothere.prm"), ("cells",),
            ("cells", "make", "nothere"), ("report", "nothere"),

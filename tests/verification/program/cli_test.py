@@ -15,12 +15,12 @@ class Help(unittest.TestCase):
     def test_help_names_the_commands_and_the_exit_status(self):
         text = run("--help").stdout
         for word in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify",
-                     "periodic", "report", "cells", "Exit status"):
+                     "periodic", "report", "cells", "judge", "bend", "Exit status"):
             self.assertIn(word, text)
 
     def test_every_command_has_help(self):
         for command in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify",
-                        "periodic", "report", "cells"):
+                        "periodic", "report", "cells", "judge", "bend"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn(command, result.stdout)
