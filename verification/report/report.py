@@ -111,7 +111,7 @@ def main(arguments=None):
         metavar="DIR",
         help=(
             "output folder of `homespun strain`, `homogenize`, `drape`, `stress`, `converge`,"
-            " `load` or `verify`; of several the page compares cells and versions"
+            " `load`, `bend` or `verify`; of several the page compares cells and versions"
         ),
     )
     parser.add_argument(

@@ -77,7 +77,7 @@ class LoadPage(PageTest):
         self.assertIn("Given stresses and strains", page)
         self.assertIn("Prescribed: strain 11 = 0.1.", page)
         self.assertIn("At 100 % of the load (biot): strain 11 = 10.0 %, strain 22 = ", page)
-        self.assertIn(", stress 11 = 110 N/m. ", page)
+        self.assertIn(", stress 11 = 110 N/m.<", page)
         self.assertIn("biot: stress 11 of the coarse cloth is 9.09 % smaller than that of the cell",
                       page)
         self.assertIn("green: stress 11 of the coarse cloth differs from that of the cell by less"

@@ -7,7 +7,7 @@ import report_path  # noqa: F401  pylint: disable=unused-import
 from page.terminal import COLUMNS, answer_text
 
 NOTHING = {"in_short": [], "drapes": [], "loads": [], "stability": [], "convergence": [],
-           "stress": []}
+           "stress": [], "bends": []}
 
 
 class Terminal(unittest.TestCase):

@@ -10,6 +10,7 @@ from figures.cloth import workers
 from figures.style import seconds, three
 from page import tables
 from page.answer import answer_of
+from page.bend_contents import bend_contents
 from page.cell_contents import contents_of_cells
 from page.claims import claim_contents, claim_groups, claim_sentence, headings_of_kinds
 from page.comparison import comparison_contents, short_table
@@ -73,6 +74,7 @@ def page_contents(results, gallery, output):
         {**stability_contents(s, gallery), "id": f"stability-{i}"}
         for i, s in enumerate(results.stability, 1)
     ]
+    bends = [{**bend_contents(b, gallery), "id": f"bend-{i}"} for i, b in enumerate(results.bends, 1)]
     drapes = contents_of_drapes(results, gallery, output)
     scenes = [d["scene"] for d in drapes]
     for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
@@ -81,7 +83,7 @@ def page_contents(results, gallery, output):
         )
     lists_all = any(study.lists_all for study in results.studies)
     strain_shown = bool(results.cells) or not (
-        drapes or stress or convergence or loads or stability or lists_all
+        drapes or stress or convergence or loads or stability or bends or lists_all
     )
     comparison = comparison_contents(results, gallery)
     several = len(results.studies) > 1
@@ -91,7 +93,7 @@ def page_contents(results, gallery, output):
         for note in study.info.get("notes") or []
     ]
     has_study = bool(results.strain) or "strain" in {study.run.command for study in results.studies}
-    sections = Sections(drapes, stress, convergence, loads, stability, strain_shown, has_study)
+    sections = Sections(drapes, stress, convergence, loads, stability, bends, strain_shown, has_study)
     headings = headings_of(sections, comparison, notes)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "forces", "uncertainty")}
@@ -149,7 +151,7 @@ def page_contents(results, gallery, output):
         + ", ".join(
             list(results.cells)
             or [d["scene"] for d in drapes]
-            + list(dict.fromkeys(c["name"] for run in loads + stability for c in run["cells"]))
+            + list(dict.fromkeys(c["name"] for run in bends + loads + stability for c in run["cells"]))
             + ["stress"] * bool(stress)
             + ["convergence"] * bool(convergence)
         ),
@@ -160,6 +162,7 @@ def page_contents(results, gallery, output):
         "convergence": convergence,
         "loads": loads,
         "stability": stability,
+        "bends": bends,
         "strain_shown": strain_shown,
         "summary": summary(results, "strain" if strain_shown and of_one_verify else ""),
         "commands": commands,
@@ -171,7 +174,7 @@ def page_contents(results, gallery, output):
         "whole": whole_sentence(results),
         "self_tests": self_tests(results, output) if strain_shown else None,
         "claim_groups": claim_groups(
-            claims, headings_of_kinds(bool(results.strain or drapes or stress or convergence))
+            claims, headings_of_kinds(bool(results.strain or drapes or stress or convergence or bends))
         ),
         "claim_sentence": claim_sentence(claims),
         "in_short": short,
@@ -180,9 +183,9 @@ def page_contents(results, gallery, output):
             []
             if strain_shown or drapes
             else blocks_of_runs(
-                {"loads": loads, "stability": stability, "convergence": convergence,
-                 "stress": stress},
-                ("loads", "stability", "convergence", "stress"),
+                {"bends": bends, "loads": loads, "stability": stability,
+                 "convergence": convergence, "stress": stress},
+                ("bends", "loads", "stability", "convergence", "stress"),
             )
         ),
         "glossary": GLOSSARY,
@@ -232,6 +235,7 @@ class Sections:
     convergence: list
     loads: list
     stability: list
+    bends: list
     strain_shown: bool
     has_study: bool
 
@@ -259,6 +263,7 @@ def headings_of(sections, comparison, notes):
     headings.update(
         (run["id"], words + (f": {run['name']}" if len(runs) > 1 else ""))
         for runs, words in (
+            (sections.bends, "Bent sheets"),
             (sections.loads, "Given stresses and strains"),
             (sections.stability, "Where the cells start to buckle in their plane"),
         )
@@ -307,6 +312,11 @@ def lead(sections):
         sentences.append(
             "Convergence: how fast errors fall as meshes, cells, strains and time steps become"
             " finer, compared with theory."
+        )
+    if sections.bends:
+        sentences.append(
+            "Bent cloth: how far an up-sampled sheet that bends is from the resolved one, in position"
+            " and normal, and how much of that edges and the deflection of the cell restore."
         )
     if sections.loads:
         sentences.append(

@@ -9,6 +9,11 @@ GLOSSARY = (
     ("C^H", "effective membrane stiffness: what an even sheet must have to answer like the cloth"
      " [N/m], in the order 11, 22, 12"),
     ("D^H", "effective bending stiffness [N m], of the curvatures κ11, κ22, 2 κ12"),
+    ("deflection of the cell, φ", "how a cell leaves the parabola of its macro curvature where it"
+     " bends, for a unit of each curvature; computed once per cell"),
+    ("roll, cantilever-1, -2, twist, pressure", "loads of a sheet that bends: rolled by a moment at the"
+     " edge opposite a clamp; clamped at one edge under a pressure; one of two clamps turned; clamped"
+     " all around under a pressure"),
     ("bracket", "two stiffnesses of which it is proven that C^H (D^H) lies between them; the bars"
      " ± are read off it"),
     ("characteristic displacements, χ", "how the vertices of a cell move beside an even strain,"

@@ -26,7 +26,9 @@ def answer_text(contents):
         for cell in contents["in_short"]
         if cell["lines"]
     ]
-    blocks += blocks_of_runs(contents, ("drapes", "loads", "stability", "convergence", "stress"))
+    blocks += blocks_of_runs(
+        contents, ("drapes", "bends", "loads", "stability", "convergence", "stress")
+    )
     lines = []
     for subject, sentences in blocks:
         if sentences:
@@ -38,7 +40,7 @@ def answer_text(contents):
 
 
 def blocks_of_runs(contents, kinds):
-    """(subject, sentences) of runs that are no study of strain: scenes, infinite cloths, orders."""
+    """(subject, sentences) of runs that are no study of strain: scenes, bent sheets, orders."""
     blocks = []
     for run in (run for kind in kinds for run in contents[kind]):
         if run.get("sentence"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads the runs of `homespun strain`, `homogenize`, `drape`, `stress`, `converge` and `verify`,
+"""Reads the runs of `homespun strain`, `homogenize`, `drape`, `stress`, `converge`, `bend` and `verify`,
 and judges them.
 
 A piece that is absent is noted (`Results.missing`) and the report goes on without it; a piece that
@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
+from read.bend_results import read_bend
 from read.budget_results import read_budget
 from read.cell_results import Cell, read_cell, read_fields
 from read.converge_results import read_convergence
@@ -78,6 +79,7 @@ class Results:
     convergence: list = field(default_factory=list)  # Convergence, one per folder
     loads: list = field(default_factory=list)  # LoadRun, one per folder
     stability: list = field(default_factory=list)  # StabilityRun, one per folder
+    bends: list = field(default_factory=list)  # BendRun, one per folder
     missing: list = field(default_factory=list)  # {"what", "why"}
     subjects: list = field(default_factory=list)  # Subject: each cell in each version
 
@@ -173,19 +175,20 @@ def read_folder(run, name, results, faults, is_listed=False):
     has_convergence = run.holds("converge.csv")
     has_load = run.holds("load.csv")
     has_stability = run.holds("stability.csv")
+    has_bend = run.holds("bend.csv")
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about
     # strain.
     has_strain = run.holds("strain.csv") or (
         bool(cell_folders)
-        and not (has_drape or has_stress or has_convergence or has_load or has_stability)
+        and not (has_drape or has_stress or has_convergence or has_load or has_stability or has_bend)
     )
-    shows = (has_drape, has_stress, has_strain, has_convergence, has_load, has_stability)
+    shows = (has_drape, has_stress, has_strain, has_convergence, has_load, has_stability, has_bend)
     if not (study.lists_all or any(shows)):
         faults.append(
             f"{run.folder}: holds no results that a page shows: {LIST} says it is of `homespun"
             f" {run.command}`, and lists neither strain.csv nor homogenize.json nor drape.json nor"
-            f" limits.csv nor converge.csv nor load.csv nor stability.csv. Give the"
-            f" --output folder of {COMMANDS}."
+            f" limits.csv nor converge.csv nor load.csv nor stability.csv nor bend.csv. Give"
+            f" the --output folder of {COMMANDS}."
         )
         return
     results.studies.append(study)
@@ -222,6 +225,10 @@ def read_folder(run, name, results, faults, is_listed=False):
     if has_stability:
         results.stability.append(
             read_stability(run, study.name, path_of, faults, results.missing, cell_folders)
+        )
+    if has_bend:
+        results.bends.append(
+            read_bend(run, study.name, path_of, faults, results.missing, cell_folders)
         )
     if has_strain:
         read_strain(run, cell_folders, path_of, results, faults)

@@ -18,7 +18,7 @@ from read.stored import lies_within, read_json
 
 LIST = "run.json"
 KINDS = {"command": str, "revision": str, "fingerprint": str, "finished": bool}
-COMMANDS = "`homespun strain`, `homogenize`, `drape`, `stress`, `converge`, `load`, `stability` or `verify`"
+COMMANDS = "`homespun strain`, `homogenize`, `drape`, `stress`, `converge`, `load`, `stability`, `bend` or `verify`"
 # What pages read besides tables; the CSV files of figures have other names.
 READ = (
     "study.json",

@@ -67,7 +67,7 @@ def merged(parts, make_results, make_cell):
     whole, subjects = make_results(), {}
     for run, part in parts:
         for attribute in (
-            "studies", "drapes", "stress", "convergence", "loads", "stability", "missing"
+            "studies", "drapes", "stress", "convergence", "loads", "stability", "bends", "missing"
         ):
             getattr(whole, attribute).extend(getattr(part, attribute))
         for name in [*part.cells, *(row["cell"] for row in part.strain)]:

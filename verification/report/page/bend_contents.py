@@ -1,0 +1,373 @@
+# SPDX-License-Identifier: MIT
+"""What the report shows of `homespun bend`: how far an up-sampled sheet that bends is off in
+position and normal, and what terms of edges and the deflection of the cell gain, apart.
+"""
+import math
+
+from markupsafe import Markup, escape
+
+from figures.bend import (HEADER, LOOKS, curve_figure, dot_figure, dot_rows, is_worth_a_figure,
+                          ordered_methods)
+from figures.style import bar_beside, beside_bar, seconds, three
+from page.tables import length, length_with_bar
+from page.words import listed
+from read.bend_results import LINEAR, NORMAL, POSITION, side_of
+
+QUANTITIES = (POSITION, NORMAL)
+DEGREES = 180.0 / math.pi
+DOTS = Markup(
+    "A sheet of <code>{cell}</code>, {cells} × {cells} cells, under each load: mean error of its"
+    " vertices against {reference}, with error bars (below the size of the mark where none is seen)."
+    " k is the curvature of the homogenized sheet, root mean square, and ε the side of the cell."
+    " Names in bend.csv, from top to bottom: {methods}."
+)
+CURVES = Markup(
+    "The same errors against curvature, over the size of a fluctuation, k ε² or k ε: level where an"
+    " error is proportional to the curvature.{linear}{shaded} Vertical lines: error bars."
+)
+
+
+def with_bar(what, row):
+    """An error and its bar in the unit of its quantity: 6.60 ± 0.036 µm, 0.136 ± 0.00080°."""
+    value, bar = what.of(row), what.of(row, "bar")
+    if what is POSITION:
+        return length_with_bar(value, bar)
+    return f"{number_with_bar(DEGREES * value, DEGREES * bar)}°"
+
+
+def radius_of(row):
+    return f"{100.0 / row['curvature_per_m']:.3g} cm"
+
+
+def number_with_bar(value, bar):
+    if not bar > 0.0:
+        return three(value)
+    shown = beside_bar(value, bar)
+    return f"{shown} ± {bar_beside(shown, value, bar)}"
+
+
+def span(pairs, text):
+    """a (load) to b (load), the smallest and the largest.
+
+    @param pairs [(load, value)]
+    @param text of a value
+    """
+    low, high = (end(pairs, key=lambda pair: pair[1]) for end in (min, max))
+    ends = dict.fromkeys(f"{text(load)} ({load})" for load, _ in (low, high))
+    return " to ".join(ends)
+
+
+def errors(sheets, method, what):
+    """Over the loads, the error of a method with its bar; empty where there is none."""
+    rows = {bent.load: bent.rows[method] for bent in sheets if bent.known(method, what)}
+    pairs = [(load, what.of(row)) for load, row in rows.items()]
+    return span(pairs, lambda load: with_bar(what, rows[load])) if pairs else ""
+
+
+def times(gains):
+    """1.07 (twist) to 1.09 (pressure)."""
+    factors = {gain.load: max(gain.factor, 1.0 / gain.factor) for gain in gains}
+    return span(list(factors.items()), lambda load: three(factors[load]))
+
+
+def gain_words(gains, subject):
+    """What makes an error how much smaller, over all loads; empty without any.
+
+    @param subject and verb, such as `terms of edges make it`
+    """
+    of = by_state(gains)
+    parts = []
+    for state, words in (
+        ("smaller", "{} times smaller"),
+        ("larger", "{} times larger"),
+        ("same", "no different, within the error bars, under {}"),
+        ("unknown", "nobody knows how much smaller under {}, where an error bar is not known"),
+        ("none", "zero, as it was, under {}"),
+    ):
+        if some := of.get(state):
+            loads = listed(gain.load for gain in some)
+            parts.append(words.format(times(some) if "times" in words else loads))
+    return f"{subject} {', '.join(parts)}" if parts else ""
+
+
+def by_state(gains):
+    of = {}
+    for gain in gains:
+        of.setdefault(gain.state, []).append(gain)
+    return of
+
+
+def gains_of(sheets, what):
+    """(by terms of edges, by the deflection of the cell on the better of the others)"""
+    edges = [bent.gain(what, "affine+edges", "affine") for bent in sheets]
+    cell = [bent.gain(what, bent.best(), bent.base(what)) for bent in sheets]
+    return [gain for gain in edges if gain], [gain for gain in cell if gain]
+
+
+def gains_nothing(sheets, what):
+    """Loads under which the deflection of the cell gains nothing by more than the bars, neither alone
+    nor beside the terms of edges.
+    """
+    return [
+        bent.load
+        for bent in sheets
+        for pair in [
+            (bent.gain(what, bent.best(), bent.base(what)), bent.gain(what, "localized", "affine"))
+        ]
+        if any(pair) and all(gain is None or gain.state in ("same", "larger") for gain in pair)
+    ]
+
+
+def first_sentence(sheets):
+    """Where positions gain nothing from the deflection of the cell that; else what all terms leave."""
+    row = next(iter(sheets[0].rows.values()))
+    against = "linear theory" if row["reference"] == LINEAR else f"large turns, {row['reference']}"
+    bent = (
+        f"Bent to a radius of {radius_of(row)} ({1.0 / row['curvature_times_cell']:.3g} cell sides,"
+        f" {against})"
+    )
+    if nothing := gains_nothing(sheets, POSITION):
+        of = by_state(gains_of(sheets, POSITION)[1])
+        where = "any load" if len(nothing) == len(sheets) else listed(nothing)
+        rest = ""
+        for state, words in (("smaller", "elsewhere it makes"), ("larger", "it makes")):
+            if state in of:
+                rest += f"; {words} their error {times(of[state])} times {state}"
+        return (
+            f"{bent}, positions gain nothing beyond the error bars from the deflection of the cell under"
+            f" {where}{rest}."
+        )
+    best = sheets[0].best()
+    with_all = "with all terms" if best == "full" else LOOKS[best][0]
+    return (
+        f"{bent}, positions are {errors(sheets, best, POSITION)} off {with_all}, and normals"
+        f" {errors(sheets, best, NORMAL)}."
+    )
+
+
+def size_sentences(sheets):
+    """What the methods leave, position and normal."""
+    return [
+        f"{what.name.capitalize()}s: "
+        + "; ".join(
+            f"{words} {error}"
+            for method, words in (
+                ("flat", "flat triangles are off by"),
+                ("affine", "the homogenized sheet by"),
+                ("localized", "with the deflection of the cell by"),
+                ("full", "with all terms by"),
+            )
+            if (error := errors(sheets, method, what))
+            and not (method == "localized" and sheets[0].best() == "full")
+        )
+        + "."
+        for what in QUANTITIES
+    ]
+
+
+def gain_sentences(sheets):
+    """The two gains over all loads, position and normal, as far as first_sentence() has not said it."""
+    found = []
+    for what in QUANTITIES:
+        edges, cell = gains_of(sheets, what)
+        if what is POSITION and gains_nothing(sheets, what):
+            cell = []  # the first sentence says it
+        words = [
+            gain_words(edges, "terms of edges make it"),
+            gain_words(
+                cell, f"the deflection of the cell makes {'what is left' if edges else 'it'}"
+            ),
+        ]
+        if any(words):
+            found.append(
+                f"Error of the {what.name}s of the homogenized sheet:"
+                f" {'; '.join(one for one in words if one)}."
+            )
+    return found
+
+
+def losses(sheets):
+    """Where the deflection of the cell alone, without terms of edges, is farther off."""
+    parts = []
+    for what in QUANTITIES:
+        some = [bent.gain(what, "localized", "affine") for bent in sheets]
+        some = [gain for gain in some if gain and gain.state == "larger"]
+        if some:
+            loads = (f"{100.0 / gain.factor - 100.0:.2g} % ({gain.load})" for gain in some)
+            parts.append(f"of {what.name}s by {listed(loads)}")
+    if not parts:
+        return []
+    return [
+        "Without terms of edges the deflection of the cell makes errors larger, by more than their bars:"
+        f" {'; '.join(parts)}."
+    ]
+
+
+def beyond_linear(run, cell, reference):
+    """How the error with all terms has grown over the curvature at the largest one."""
+    if reference == LINEAR:
+        return []
+    rows = run.of(cell, reference)
+    largest = max(row["curvature_times_cell"] for row in rows)
+    found = {what: [] for what in QUANTITIES}
+    for bent in run.sheets(cell, reference):
+        here = bent.rows.get(bent.best())
+        for row in rows:
+            if here and (row["load"], row["method"], row["curvature_times_cell"]) == (
+                bent.load, bent.best(), largest
+            ):
+                for what in QUANTITIES:
+                    if what.of(here) > 0 and math.isfinite(what.of(row)):
+                        found[what].append((bent.load, what.relative(row) / what.relative(here)))
+    return [
+        f"At a radius of {1.0 / largest:.3g} cell sides {what.name} errors, over their curvature, are"
+        f" {span(pairs, lambda load, its=dict(pairs): three(its[load]))} times those at"
+        f" {1.0 / here['curvature_times_cell']:.3g} cell sides."
+        for what, pairs in found.items()
+        if pairs and here["curvature_times_cell"] < largest
+    ]
+
+
+def roll_sentences(run, cell):
+    """Where the curvature of the table exceeds that up to which D^H holds."""
+    radius, rows = run.least_radius(cell), run.of(cell)
+    beyond = sorted({
+        row["curvature_times_cell"]
+        for row in rows
+        if radius and row["curvature_per_m"] * radius > 1.0
+    })
+    if not beyond:
+        return []
+    return [
+        f"Dᴴ holds to 2 % along every direction down to a radius of {length(radius)}:"
+        f" curvatures × cell side from {three(beyond[0])} are tighter, and a cell then stretches where"
+        " it bends, which no method here knows."
+    ]
+
+
+def absent_sentence(run, cell, sheets):
+    """Loads that have no error at the curvature that the page speaks of."""
+    shown = {bent.load for bent in sheets}
+    absent = list(dict.fromkeys(row["load"] for row in run.of(cell) if row["load"] not in shown))
+    return [f"No error is known at this radius under {listed(absent)}."] if absent else []
+
+
+def gain_rows(sheets):
+    """Per load the two gains of each quantity."""
+    table = []
+    for bent in sheets:
+        cells = [bent.load]
+        for what in QUANTITIES:
+            base = bent.base(what)
+            for gain in (bent.gain(what, "affine+edges", "affine"),
+                         bent.gain(what, bent.best(), base)):
+                cells.append(gain_text(gain))
+            cells.append(LOOKS[base][0] if base else "–")
+        table.append(cells)
+    return table
+
+
+def gain_text(gain):
+    if gain is None or gain.state == "none":
+        return "–"
+    note = {"same": " (within bars)", "unknown": " (no bar)"}.get(gain.state, "")
+    return three(gain.factor) + note
+
+
+def error_groups(sheets):
+    """Rows of errors in thousandths of k eps² and k eps, by load."""
+    groups = []
+    for bent in sheets:
+        rows = []
+        for method in ordered_methods(bent.rows.values()):
+            row, cells = bent.rows[method], []
+            for what in QUANTITIES:
+                mean, bar, *parts = (
+                    1e3 * what.relative(row, part) for part in ("mean", "bar", "interior", "edge")
+                )
+                cells += [number_with_bar(mean, bar), *map(three, parts)]
+            rows.append([LOOKS.get(method, (method,))[0], *cells])
+        groups.append({"load": bent.load, "rows": rows})
+    return groups
+
+
+def sizes_of(sheets):
+    first = next(iter(sheets[0].rows.values()))
+    return (
+        f"At a radius of {radius_of(first)}, k ε² is {length(POSITION.size(first))} and k ε"
+        f" {three(DEGREES * NORMAL.size(first))}°."
+    )
+
+
+def pictures(run, cell, reference, sheets, gallery):
+    rows = run.of(cell)
+    first = next(iter(sheets[0].rows.values()))
+    methods = listed(
+        f"{LOOKS[m][0]} = {m}" for m in ordered_methods(first for s in sheets for first in s.rows.values())
+        if m in LOOKS
+    )
+    caption = DOTS.format(cell=cell, cells=int(first["cells"]), methods=methods,
+                          reference=reference_words(reference))
+    found = [
+        gallery.add(dot_figure(sheets), f"bend-{cell}", caption, table=(HEADER, dot_rows(sheets)),
+                    plotted=False)
+    ]
+    if is_worth_a_figure(rows):
+        radius = run.least_radius(cell)
+        shaded = f" Shaded, right of the line: tighter than {length(radius)}, where Dᴴ no longer holds to 2 %." if radius else ""
+        linear = " Thin dotted lines: linear theory." if LINEAR in run.references(cell) else ""
+        ordered = sorted(rows, key=lambda row: run.references(cell).index(row["reference"]))
+        found.append(
+            gallery.add(curve_figure(ordered, radius), f"bend-{cell}-curvature",
+                        CURVES.format(linear=escape(linear), shaded=escape(shaded)))
+        )
+    return found
+
+
+def reference_words(reference):
+    return (
+        "the resolved plate of its phases in linear theory, where errors are proportional to the"
+        " curvature"
+        if reference == LINEAR
+        else f"the resolved sheet of its phases under the law {reference}, at large turns"
+    )
+
+
+def time_sentence(sheets):
+    rows = [next(iter(bent.rows.values())) for bent in sheets]
+    spans = []
+    for key in ("seconds_reference", "seconds_methods"):
+        values = [row[key] for row in rows if math.isfinite(row[key])]
+        if not values:
+            return []
+        spans.append(" to ".join(dict.fromkeys(seconds(end(values)) for end in (min, max))))
+    return [f"Run time per load: {spans[0]} the reference, {spans[1]} the homogenized sheets with all methods."]
+
+
+def bend_contents(run, gallery):
+    """Per cell sentences, figures and tables."""
+    cells = []
+    for name in run.names():
+        reference, *others = run.references(name)
+        sheets = run.sheets(name, reference)
+        if not sheets:
+            continue
+        cells.append(
+            {
+                "name": name,
+                "sentences": [first_sentence(sheets)]
+                + size_sentences(sheets)
+                + gain_sentences(sheets)
+                + absent_sentence(run, name, sheets)
+                + roll_sentences(run, name),
+                "more": losses(sheets) + beyond_linear(run, name, reference) + time_sentence(sheets),
+                "pictures": pictures(run, name, reference, sheets, gallery),
+                "gains": gain_rows(sheets),
+                "tables": [
+                    {"reference": reference_words(one), "groups": error_groups(run.sheets(name, one))}
+                    for one in (reference, *others)
+                ],
+                "sizes": sizes_of(sheets),
+            }
+        )
+    return {"name": run.name, "cells": cells}
