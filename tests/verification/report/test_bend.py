@@ -41,6 +41,16 @@ def rows(load, errors, reference="linear", level=0.1, bar=0.01):
     ]
 
 
+def wrinkle(axis, cells, compression, bar=0.002):
+    """A row of wrinkles.csv: compression by that of D^H."""
+    return {
+        "cell": "stripes", "axis": axis, "cells_per_wave": cells, "foundation_N_per_m3": 4e3,
+        "wavelength_m": 0.97 * cells * SIDE, "wavelength_bar_m": bar * cells * SIDE,
+        "homogenized_wavelength_m": cells * SIDE, "compression_N_per_m": 10.0 * compression,
+        "compression_bar_N_per_m": 10.0 * bar, "homogenized_compression_N_per_m": 10.0,
+    }
+
+
 def bent(load, errors, left_out=(), **how):
     some = rows(load, errors, **how)
     return Bent(load, {row["method"]: row for row in some if row["method"] not in left_out})
@@ -110,9 +120,10 @@ class Sentences(unittest.TestCase):
 
 
 class BendPage(PageTest):
-    def write(self, table):
+    def write(self, table, wrinkles=()):
         os.makedirs(self.folder, exist_ok=True)
         write_table(self.folder, "bend.csv", table)
+        write_table(self.folder, "wrinkles.csv", wrinkles)
         with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
             json.dump({"command": "homespun bend x.prm", "notes": ["a note"]}, file)
         write_verdicts(self.folder, [verdict("stripes, roll: closer", "PASS", kind="method")])
@@ -127,7 +138,8 @@ class BendPage(PageTest):
 
     def test_the_answer_stands_first_and_errors_in_figure_and_table_are_those_of_bend_csv(self):
         self.write(rows("roll", NONE) + rows("twist", GAINS) + rows("roll", NONE, level=0.2)
-                   + rows("twist", GAINS, level=0.2))
+                   + rows("twist", GAINS, level=0.2),
+                   [wrinkle(1, 4, 1.001), wrinkle(2, 6, 0.99), wrinkle(2, 4, 0.957)])
         self.assertEqual(self.run_report(saved=["bend-stripes"]), (0, ""))
         page = self.page()
         self.assertIn("<h1>homespun: stripes</h1>", page)
@@ -139,6 +151,11 @@ class BendPage(PageTest):
         self.assertIn("At a radius of 10 cm, k ε² is 1.00 mm and k ε 5.73°.", page)
         text = " ".join(plain(page.replace("</td>", " | ")).split())
         self.assertIn("flat triangles | 500.0 ± 5.0 | 250 | 750 | 2000 ± 20 |", text)
+        self.assertIn("Pressed along axis 1, where Dᴴ has waves of 4 cells, a sheet begins to wrinkle:"
+                      " its compression is that of Dᴴ within the error bar and its wavelength is", page)
+        self.assertIn("its compression is 4.30 ± 0.20 % smaller than by Dᴴ and its wavelength is"
+                      " 3.00 ± 0.20 % shorter than by Dᴴ.", page)
+        self.assertIn("| 10.0 | 9.570 ± 0.020 | −4.30 ± 0.20 % |", text)
         dots = self.figure("bend-stripes.csv")
         self.assertEqual(len(dots), 2 * 2 * len(METHODS))
         full = [dot for dot in dots if (dot["load"], dot["method"]) == ("twist", "full")]

@@ -278,6 +278,14 @@ def beside_bar(value, bar):
     return f"{value:.{max(0, digits - 1 - first)}f}".replace("-", "−")
 
 
+def number_with_bar(value, bar):
+    """A number and its error bar, as many digits as that justifies: 3.75 ± 0.50."""
+    if not bar > 0.0 or math.isnan(value):
+        return three(value)
+    shown = beside_bar(value, bar)
+    return f"{shown} ± {bar_beside(shown, value, bar)}"
+
+
 def percent(strain):
     """A strain as a percentage without trailing zeros: 0.1 gives 10 %."""
     return f"{100 * strain:.6g} %"

@@ -8,9 +8,10 @@ from markupsafe import Markup, escape
 
 from figures.bend import (HEADER, LOOKS, curve_figure, dot_figure, dot_rows, is_worth_a_figure,
                           ordered_methods)
-from figures.style import bar_beside, beside_bar, seconds, three
+from figures.style import number_with_bar, seconds, three
 from page.tables import length, length_with_bar
 from page.words import listed
+from page.wrinkle_contents import wrinkle_rows, wrinkle_sentences
 from read.bend_results import LINEAR, NORMAL, POSITION, side_of
 
 QUANTITIES = (POSITION, NORMAL)
@@ -37,13 +38,6 @@ def with_bar(what, row):
 
 def radius_of(row):
     return f"{100.0 / row['curvature_per_m']:.3g} cm"
-
-
-def number_with_bar(value, bar):
-    if not bar > 0.0:
-        return three(value)
-    shown = beside_bar(value, bar)
-    return f"{shown} ± {bar_beside(shown, value, bar)}"
 
 
 def span(pairs, text):
@@ -352,6 +346,7 @@ def bend_contents(run, gallery):
         sheets = run.sheets(name, reference)
         if not sheets:
             continue
+        wrinkles = [row for row in run.wrinkles if row["cell"] == name]
         cells.append(
             {
                 "name": name,
@@ -368,6 +363,8 @@ def bend_contents(run, gallery):
                     for one in (reference, *others)
                 ],
                 "sizes": sizes_of(sheets),
+                "wrinkle_sentences": wrinkle_sentences(wrinkles),
+                "wrinkles": wrinkle_rows(wrinkles),
             }
         )
     return {"name": run.name, "cells": cells}

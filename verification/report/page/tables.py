@@ -8,7 +8,7 @@ import numpy
 from figures import style
 from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
-from figures.style import bar_beside, beside_bar, percent, seconds, three
+from figures.style import number_with_bar, percent, seconds, three
 from page.entries import ENTRIES, bracket_words, entry_texts, used_stiffnesses
 from read import schema
 from read.cell_results import relative_width
@@ -50,8 +50,7 @@ def length_with_bar(value, bar):
         return text
     unit = text.rpartition(" ")[2]
     factor = {"nm": 1e9, "µm": 1e6, "mm": 1e3, "m": 1.0}[unit]
-    shown = beside_bar(factor * value, factor * bar)
-    return f"{shown} ± {bar_beside(shown, factor * value, factor * bar)} {unit}"
+    return f"{number_with_bar(factor * value, factor * bar)} {unit}"
 
 
 def error_tables(rows, methods, gains):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads bend.csv of `homespun bend`: errors of an up-sampled sheet that bends, by load, reference,
-curvature and method, and what terms of edges and the deflection of the cell gain.
+"""Reads `homespun bend`: errors of an up-sampled sheet that bends, by load, reference, curvature and
+method, what terms of edges and the deflection of the cell gain, and where a sheet wrinkles.
 """
 import math
 from dataclasses import dataclass, field
@@ -102,6 +102,7 @@ class BendRun:
     folder: str
     name: str
     rows: list = field(default_factory=list)
+    wrinkles: list = field(default_factory=list)  # rows of wrinkles.csv
     cells: dict = field(default_factory=dict)  # name -> Cell
 
     def names(self):
@@ -148,6 +149,8 @@ def read_bend(run, name, path_of, faults, missing, cell_folders):
     result = BendRun(run.folder, name)
     if path := path_of("bend.csv", f"errors of the bent sheets of {name}"):
         result.rows = read_csv(path, faults, missing, AGAIN)
+    if path := path_of("wrinkles.csv", f"onset of wrinkles of {name}"):
+        result.wrinkles = read_csv(path, faults, missing, AGAIN)
     for cell, inner in cell_folders.items():
         result.cells[cell] = read_cell(cell, run, inner, faults, missing)
     return result
