@@ -93,8 +93,15 @@ class Sentences(unittest.TestCase):
     def test_without_error_bars_nothing_is_said_to_gain_or_not(self):
         sheets = [bent("roll", GAINS, bar=math.nan)]
         self.assertNotIn("nothing", first_sentence(sheets))
-        self.assertIn("nobody knows how much smaller under roll", gain_sentences(sheets)[0])
+        self.assertIn("smaller or larger under roll, which no error bar tells", gain_sentences(sheets)[0])
         self.assertEqual(gain_rows(sheets)[0][2], "2.00 (no bar)")
+
+    def test_what_the_first_sentence_leaves_out_stands_in_that_of_the_gains(self):
+        sheets = [bent("roll", NONE), bent("twist", GAINS, bar=math.nan), bent("pressure", GAINS)]
+        self.assertIn("roll; elsewhere it makes their error 2.00 (pressure)", first_sentence(sheets))
+        self.assertIn("terms of edges make it 2.00 (roll) times smaller, smaller or larger under twist,"
+                      " which no error bar tells; the deflection of the cell makes what is left"
+                      " smaller or larger under twist", gain_sentences(sheets)[0])
 
     def test_the_two_gains_stand_apart_and_the_base_is_the_better_sheet(self):
         edges_lose = {**GAINS, "position": (0.5, 0.2, 0.2, 0.4, 0.1)}

@@ -75,7 +75,7 @@ def gain_words(gains, subject):
         ("smaller", "{} times smaller"),
         ("larger", "{} times larger"),
         ("same", "no different, within the error bars, under {}"),
-        ("unknown", "nobody knows how much smaller under {}, where an error bar is not known"),
+        ("unknown", "smaller or larger under {}, which no error bar tells"),
         ("none", "zero, as it was, under {}"),
     ):
         if some := of.get(state):
@@ -164,8 +164,10 @@ def gain_sentences(sheets):
     found = []
     for what in QUANTITIES:
         edges, cell = gains_of(sheets, what)
-        if what is POSITION and gains_nothing(sheets, what):
-            cell = []  # the first sentence says it
+        nothing = gains_nothing(sheets, what) if what is POSITION else []
+        if nothing:  # which the first sentence says, as it says what is smaller and larger
+            told = ("smaller", "larger")
+            cell = [one for one in cell if one.load not in nothing and one.state not in told]
         words = [
             gain_words(edges, "terms of edges make it"),
             gain_words(
@@ -197,29 +199,30 @@ def losses(sheets):
     ]
 
 
-def beyond_linear(run, cell, reference):
-    """How the error with all terms has grown over the curvature at the largest one."""
-    if reference == LINEAR:
+def beyond_linear(run, cell, sheets):
+    """How the error of the best method, over its curvature, has grown at the tightest radius."""
+    shown = next(iter(sheets[0].rows.values()))
+    rows = run.of(cell, shown["reference"])
+    tightest = max(row["curvature_times_cell"] for row in rows)
+    if shown["reference"] == LINEAR or tightest <= shown["curvature_times_cell"]:
         return []
-    rows = run.of(cell, reference)
-    largest = max(row["curvature_times_cell"] for row in rows)
-    found = {what: [] for what in QUANTITIES}
-    for bent in run.sheets(cell, reference):
-        here = bent.rows.get(bent.best())
-        for row in rows:
-            if here and (row["load"], row["method"], row["curvature_times_cell"]) == (
-                bent.load, bent.best(), largest
-            ):
-                for what in QUANTITIES:
-                    if what.of(here) > 0 and math.isfinite(what.of(row)):
-                        found[what].append((bent.load, what.relative(row) / what.relative(here)))
-    return [
-        f"At a radius of {1.0 / largest:.3g} cell sides {what.name} errors, over their curvature, are"
-        f" {span(pairs, lambda load, its=dict(pairs): three(its[load]))} times those at"
-        f" {1.0 / here['curvature_times_cell']:.3g} cell sides."
-        for what, pairs in found.items()
-        if pairs and here["curvature_times_cell"] < largest
-    ]
+    there = {
+        (row["load"], row["method"]): row for row in rows if row["curvature_times_cell"] == tightest
+    }
+    sentences = []
+    for what in QUANTITIES:
+        grown = {}
+        for bent in sheets:
+            here, row = bent.rows.get(bent.best()), there.get((bent.load, bent.best()))
+            if here and row and what.of(here) > 0 and math.isfinite(what.of(row)):
+                grown[bent.load] = what.relative(row) / what.relative(here)
+        if grown:
+            sentences.append(
+                f"At a radius of {1.0 / tightest:.3g} cell sides {what.name} errors, over their"
+                f" curvature, are {span(list(grown.items()), lambda load, its=grown: three(its[load]))}"
+                f" times those at {1.0 / shown['curvature_times_cell']:.3g} cell sides."
+            )
+    return sentences
 
 
 def roll_sentences(run, cell):
@@ -297,8 +300,9 @@ def pictures(run, cell, reference, sheets, gallery):
     rows = run.of(cell)
     first = next(iter(sheets[0].rows.values()))
     methods = listed(
-        f"{LOOKS[m][0]} = {m}" for m in ordered_methods(first for s in sheets for first in s.rows.values())
-        if m in LOOKS
+        f"{LOOKS[method][0]} = {method}"
+        for method in ordered_methods(row for bent in sheets for row in bent.rows.values())
+        if method in LOOKS
     )
     caption = DOTS.format(cell=cell, cells=int(first["cells"]), methods=methods,
                           reference=reference_words(reference))
@@ -355,7 +359,7 @@ def bend_contents(run, gallery):
                 + gain_sentences(sheets)
                 + absent_sentence(run, name, sheets)
                 + roll_sentences(run, name),
-                "more": losses(sheets) + beyond_linear(run, name, reference) + time_sentence(sheets),
+                "more": losses(sheets) + beyond_linear(run, name, sheets) + time_sentence(sheets),
                 "pictures": pictures(run, name, reference, sheets, gallery),
                 "gains": gain_rows(sheets),
                 "tables": [
