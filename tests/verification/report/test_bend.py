@@ -114,6 +114,8 @@ class Sentences(unittest.TestCase):
         self.assertEqual(gain_rows(sheets)[0][:4], ["roll", "–", "1.33", "homogenized sheet"])
         self.assertIn("the deflection of the cell makes it 1.33 (roll) times smaller",
                       gain_sentences(sheets)[0])
+        self.assertIn("What clamps and free edges add is not known", gain_sentences(sheets)[-1])
+        self.assertNotIn("not known", gain_sentences([bent("roll", GAINS)])[-1])
         self.assertTrue(size_sentences(sheets)[0].endswith(
             "with the deflection of the cell by 300.0 ± 3.0 µm (roll)."), size_sentences(sheets))
 

@@ -179,6 +179,8 @@ def gain_sentences(sheets):
                 f"Error of the {what.name}s of the homogenized sheet:"
                 f" {'; '.join(one for one in words if one)}."
             )
+    if not any("full" in bent.rows for bent in sheets):
+        found.append("What clamps and free edges add is not known of this cell, and left in all errors.")
     return found
 
 
