@@ -6,8 +6,8 @@
 #include "meshes/plain/index.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/CholmodSupport>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <boost/math/tools/minima.hpp>
@@ -71,6 +71,22 @@ PlateWaves::PlateWaves(const TorusMesh &mesh,
   }
 }
 
+double PlateWaves::energy(const Eigen::VectorXcd &wave, const Eigen::Vector2d &wave_vector,
+                          const double foundation) const
+{
+  double sum = 0.;
+  for (const Triangle &triangle : triangles)
+  {
+    Eigen::Matrix<std::complex<double>, 12, 1> local;
+    for (int k = 0; k < 12; ++k)
+      local(k) =
+        std::polar(1., triangle.offset.row(k).dot(wave_vector)) * wave(triangle.dofs[at(k)]);
+    sum += (triangle.rows * local).squaredNorm() +
+           foundation * std::real(local.dot(triangle.deflection * local));
+  }
+  return sum;
+}
+
 double PlateWaves::compression(const Eigen::Vector2d &wave_vector, const double foundation) const
 {
   using Complex = std::complex<double>;
@@ -98,27 +114,13 @@ double PlateWaves::compression(const Eigen::Vector2d &wave_vector, const double 
   Matrix stiffness(n_dofs, n_dofs), slopes(n_dofs, n_dofs);
   stiffness.setFromTriplets(of_stiffness.begin(), of_stiffness.end());
   slopes.setFromTriplets(of_slopes.begin(), of_slopes.end());
-  const Eigen::SimplicialLDLT<Matrix> factor(stiffness);
-  const auto stiffness_of = [&](const Eigen::VectorXcd &wave)
-  {
-    double energy = 0.;
-    for (const Triangle &triangle : triangles)
-    {
-      Eigen::Matrix<Complex, 12, 1> local;
-      for (int k = 0; k < 12; ++k)
-        local(k) =
-          std::polar(1., triangle.offset.row(k).dot(wave_vector)) * wave(triangle.dofs[at(k)]);
-      energy += (triangle.rows * local).squaredNorm() +
-                foundation * std::real(local.dot(triangle.deflection * local));
-    }
-    return energy;
-  };
+  const Eigen::CholmodSupernodalLLT<Matrix> factor(stiffness);
   std::vector<double> history;
   for (int iteration = 0; iteration < 500 && factor.info() == Eigen::Success; ++iteration)
   {
     w = factor.solve((slopes * w).eval()).eval();
     w /= w.norm();
-    const double quotient = std::real(w.dot(slopes * w)) / stiffness_of(w);
+    const double quotient = std::real(w.dot(slopes * w)) / energy(w, wave_vector, foundation);
     history.push_back(quotient);
     if (history.size() > 1 &&
         std::abs(quotient - history[history.size() - 2]) < 1e-12 * std::abs(quotient) &&

@@ -59,6 +59,10 @@ private:
     Element deflection, pressed_slopes; ///< of w^2 and −N_ij w,i w,j
   };
 
+  /// integral kappa.D.kappa + K w^2, of values w without exp(i k.x) of where each was met first.
+  double energy(const Eigen::VectorXcd &wave, const Eigen::Vector2d &wave_vector,
+                double foundation) const;
+
   std::vector<Triangle> triangles;
   int n_dofs = 0;
 };

@@ -86,6 +86,8 @@ private:
                                 static_cast<int>(cells().size() * (loads.size() + 1)));
               for (std::size_t k = 0; k < cells().size(); ++k)
               {
+                if (assessed[k].bending && !assessed[k].bending->roll) // up to where D^H holds
+                  assessed[k].bending->roll = roll_of(cells()[k], {});
                 write_cell(cells()[k], assessed[k]);
                 solve(cells()[k], progress);
               }

@@ -11,6 +11,23 @@ namespace homespun::verification
 using homogenization::PlateWaves;
 using homogenization::WrinkleOnset;
 
+namespace
+{
+/// The least compression by the parabola through three wavenumbers, 2 % apart: the same on two
+/// meshes, so that their distance is one of meshes.
+WrinkleOnset parabola(const PlateWaves &waves, const Eigen::Vector2d &direction,
+                      const WrinkleOnset &near, const double foundation)
+{
+  const double step = 0.02 * near.wavenumber;
+  const auto at     = [&](const double wavenumber)
+  { return waves.compression(wavenumber * direction, foundation); };
+  const double left = at(near.wavenumber - step), middle = at(near.wavenumber),
+               right = at(near.wavenumber + step), bend = left - 2. * middle + right;
+  return {near.wavenumber + 0.5 * step * (left - right) / bend,
+          middle - (left - right) * (left - right) / (8. * bend)};
+}
+} // namespace
+
 std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &cells_per_wave)
 {
   const homogenization::UnitCell &unit = cell.drawn.cell;
@@ -43,13 +60,14 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
       row.foundation              = bends(cell.drawn) * std::pow(wavenumber, 4);
       row.homogenized_wavelength  = n_cells * side;
       row.homogenized_compression = 2. * std::sqrt(row.foundation * bends(cell.drawn));
-      const auto onset            = [&](const PlateWaves &of_mesh)
-      { return of_mesh.onset(n, wavenumber, row.foundation / covered); };
-      const WrinkleOnset here = onset(drawn), there = onset(finer);
-      const auto length = [](const WrinkleOnset &one)
+      const double foundation     = row.foundation / covered;
+      const WrinkleOnset onset    = drawn.onset(n, wavenumber, foundation),
+                         here     = parabola(drawn, n, onset, foundation),
+                         there    = parabola(finer, n, onset, foundation);
+      const auto length           = [](const WrinkleOnset &one)
       { return 2. * std::acos(-1.) / one.wavenumber; };
-      row.wavelength      = length(here);
-      row.compression     = here.compression;
+      row.wavelength      = length(onset);
+      row.compression     = onset.compression;
       row.wavelength_bar  = safety_unconfirmed * std::abs(length(here) - length(there));
       row.compression_bar = safety_unconfirmed * std::abs(here.compression - there.compression);
       rows.push_back(row);

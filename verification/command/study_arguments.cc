@@ -135,9 +135,14 @@ void print(const std::vector<Verdict> &verdicts, const EndOfStudy &end)
 {
   for (const Verdict &verdict : verdicts)
     if (end.is_verbose || verdict.outcome != Outcome::pass)
-      std::printf("%-12s %-7s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(),
-                  name_of(verdict.kind).c_str(), verdict.claim.c_str(), verdict.value,
+    {
+      char value[32] = ""; // of a claim without one there is nothing to print
+      if (std::isfinite(verdict.value))
+        std::snprintf(value, sizeof(value), ": %.4g", verdict.value);
+      std::printf("%-12s %-7s %s%s (%s)\n", name_of(verdict.outcome).c_str(),
+                  name_of(verdict.kind).c_str(), verdict.claim.c_str(), value,
                   verdict.limit.c_str());
+    }
 }
 
 std::string count_of_claims(const std::vector<Verdict> &verdicts)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/error_norms.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace homespun::verification
@@ -11,6 +12,7 @@ ErrorNorms error_norms(const Eigen::VectorXd &distances)
           std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size())),
           distances.maxCoeff()};
 }
+
 std::pair<double, double> apart_from_edges(const Eigen::VectorXd &distances,
                                            const meshes::Sheet &sheet)
 {
