@@ -87,7 +87,7 @@ public:
   {
     if (first_collapsed(x) >= 0)
       return std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd theta = angles(x);
+    const Eigen::VectorXd theta = angles_at_edges(edges, triangles, x);
     return theta.size() == 0 ? 0. : 0.5 * theta.dot(compliance.solve(theta));
   }
 
@@ -174,33 +174,9 @@ private:
     return -1;
   }
 
-  Eigen::Vector3d normal(const Vectors &x, const int t) const
-  {
-    return side(x, t, 0).cross(side(x, t, 1)).normalized();
-  }
-
-  /// θ, positive where corners that move along their normals make it grow.
-  Eigen::VectorXd angles(const Vectors &x) const
-  {
-    std::vector<Eigen::Vector3d> normals(index(n_triangles()));
-    for (int t = 0; t < n_triangles(); ++t)
-      normals[index(t)] = normal(x, t);
-    Eigen::VectorXd theta(static_cast<Eigen::Index>(edges.size()));
-    for (std::size_t e = 0; e < edges.size(); ++e)
-    {
-      const PlateEdge &edge      = edges[e];
-      const Eigen::Vector3d &own = normals[index(edge.triangle[0])],
-                            &other =
-                              edge.triangle[1] < 0 ? edge.normal : normals[index(edge.triangle[1])],
-                            along         = side(x, edge.triangle[0], edge.corner[0]).normalized();
-      theta(static_cast<Eigen::Index>(e)) = std::atan2(other.cross(own).dot(along), own.dot(other));
-    }
-    return theta;
-  }
-
   Eigen::VectorXd moments_of(const Vectors &x) const
   {
-    const Eigen::VectorXd theta = angles(x);
+    const Eigen::VectorXd theta = angles_at_edges(edges, triangles, x);
     return theta.size() == 0 ? theta : Eigen::VectorXd(compliance.solve(theta));
   }
 

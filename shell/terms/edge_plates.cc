@@ -6,8 +6,10 @@
 #include "shell/terms/hinges.h"
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace homespun::shell
@@ -148,5 +150,50 @@ EdgePlates edge_plates(const meshes::ClothMesh &mesh, const std::vector<PlateSti
   all.compliance.setFromTriplets(entries.begin(), entries.end());
   give_places(mesh.triangles, mesh.n_vertices(), all);
   return all;
+}
+
+Eigen::VectorXd angles_at_edges(const std::vector<PlateEdge> &edges,
+                                const meshes::Triangles &triangles, const meshes::SpacePoints &x)
+{
+  const auto side = [&](const int t, const int k) -> Eigen::Vector3d
+  { return (x.row(triangles(t, (k + 2) % 3)) - x.row(triangles(t, (k + 1) % 3))).transpose(); };
+  std::vector<Eigen::Vector3d> normals;
+  for (int t = 0; t < static_cast<int>(triangles.rows()); ++t)
+    normals.push_back(side(t, 0).cross(side(t, 1)).normalized());
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(edges.size()));
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    const PlateEdge &edge      = edges[e];
+    const Eigen::Vector3d &own = normals[index(edge.triangle[0])],
+                          &other =
+                            edge.triangle[1] < 0 ? edge.normal : normals[index(edge.triangle[1])],
+                          along         = side(edge.triangle[0], edge.corner[0]).normalized();
+    theta(static_cast<Eigen::Index>(e)) = std::atan2(other.cross(own).dot(along), own.dot(other));
+  }
+  return theta;
+}
+
+Eigen::MatrixX3d bending_moments(const meshes::ClothMesh &mesh,
+                                 const std::vector<PlateStiffness> &stiffness,
+                                 const std::vector<ClampedEdge> &clamps)
+{
+  const EdgePlates all        = edge_plates(mesh, stiffness, clamps);
+  const Eigen::VectorXd theta = angles_at_edges(all.edges, mesh.triangles, mesh.positions);
+  Eigen::VectorXd r           = theta; // C r = θ
+  if (theta.size() > 0)
+    r = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(all.compliance).solve(theta);
+  const Eigen::VectorXd areas = meshes::signed_areas(mesh.rest).cwiseAbs();
+  Eigen::MatrixX3d moments(mesh.n_triangles(), 3);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    // r = dE/da = A G^T M, zero at free edges.
+    Eigen::Vector3d own = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (const int e = all.plates[index(t)].edge[index(k)]; e >= 0)
+        own(k) = r(e);
+    const Eigen::Matrix3d G = curvature_of_angles(mesh, t, areas(t));
+    moments.row(t)          = G.transpose().inverse() * own / areas(t);
+  }
+  return moments;
 }
 } // namespace homespun::shell

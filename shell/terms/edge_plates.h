@@ -55,4 +55,16 @@ struct EdgePlates
 /// @throws BadInput as edge_angles_term()
 EdgePlates edge_plates(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness,
                        const std::vector<ClampedEdge> &clamps);
+
+/// θ, positive where corners that move along their normals make it grow.
+/// @param x positions of the vertices in space (n,3) [m]
+Eigen::VectorXd angles_at_edges(const std::vector<PlateEdge> &edges,
+                                const meshes::Triangles &triangles, const meshes::SpacePoints &x);
+
+/// The moments M = D κ of each triangle at mesh.positions, of which the part across an edge is that
+/// of its other triangle (m,3), Voigt order 11, 22, 12 [N].
+/// @throws BadInput as edge_plates()
+Eigen::MatrixX3d bending_moments(const meshes::ClothMesh &mesh,
+                                 const std::vector<PlateStiffness> &stiffness,
+                                 const std::vector<ClampedEdge> &clamps);
 } // namespace homespun::shell

@@ -65,7 +65,8 @@ MAY_INCLUDE = {
                             "verification/method", "verification/periodic_cell",
                             "homogenization/bracket", "localization"}
     | MESHES | CELLS | SHELL,
-    "verification/bend": {"verification/cell", "homogenization/bracket", "homogenization/cell"},
+    "verification/bend": {"verification/cell", "homogenization/bracket", "homogenization/cell",
+                          "homogenization/edges", "meshes/cloth"} | SHELL,
     "verification/converge": {"verification/reference", "verification/ellipticity",
                               "verification/bend", "verification/cell", "verification/method",
                               "homogenization/bracket", "homogenization/algebra", "localization"}

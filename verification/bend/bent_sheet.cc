@@ -17,25 +17,6 @@ using meshes::at;
 
 namespace
 {
-/// A point in a triangle of coarse_sheet().
-struct CoarsePoint
-{
-  int triangle;
-  Eigen::Vector3d barycentric;
-};
-
-/// @param fraction on the sheet @param n quads along a side
-CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
-{
-  const Eigen::RowVector2d place = fraction * n;
-  const int i                    = std::clamp(static_cast<int>(place(0)), 0, n - 1),
-            j                    = std::clamp(static_cast<int>(place(1)), 0, n - 1);
-  const double f = place(0) - i, g = place(1) - j;
-  if (f >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
-    return {2 * (j * n + i), {1. - f, f - g, g}};
-  return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
-}
-
 /// Of a deflection w: the normal of small slopes is (−w,1, −w,2, 1).
 void set_state(BentState &state, const int v, const Eigen::Vector3d &w_and_gradient)
 {
@@ -141,6 +122,17 @@ BendingError mean_of(const BentState &difference)
   return {position_errors(difference).mean(), normal_errors(difference).mean()};
 }
 
+CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
+{
+  const Eigen::RowVector2d place = fraction * n;
+  const int i                    = std::clamp(static_cast<int>(place(0)), 0, n - 1),
+            j                    = std::clamp(static_cast<int>(place(1)), 0, n - 1);
+  const double f = place(0) - i, g = place(1) - j;
+  if (f >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
+    return {2 * (j * n + i), {1. - f, f - g, g}};
+  return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
+}
+
 int macro_quads_per_cell(const int n_cells)
 {
   return 2 * std::max(1, 80 / (2 * n_cells));
@@ -190,6 +182,7 @@ BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int
                                    std::abs(now.normal - before.normal)};
       error_of_method[method]   = error;
     }
+    unit_load  = 1. / curvature;
     deflection = reference.col(2).cwiseAbs().mean() / curvature;
   }
   seconds = since(start);

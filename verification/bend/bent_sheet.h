@@ -52,6 +52,16 @@ struct BendingError
 
 BendingError mean_of(const BentState &difference);
 
+/// A point in a triangle of coarse_sheet().
+struct CoarsePoint
+{
+  int triangle;
+  Eigen::Vector3d barycentric;
+};
+
+/// @param fraction on the sheet @param n quads along a side
+CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, int n);
+
 /// Quads of the homogenized sheet along a side of a cell, even: about 80 along one of the sheet,
 /// since its clamps and corners need as many whatever the number of cells.
 int macro_quads_per_cell(int n_cells);
@@ -70,6 +80,7 @@ struct BentSheet
   /// Up-sampled less resolved; empty of methods with terms of edges where those are not known.
   OfMethods<BentState> error_of_method;
   OfMethods<BendingError> of_macro_mesh; ///< by how much halved quads change its means
+  double unit_load         = 0.;         ///< that bends it so, of the load's unit times m
   double deflection        = 0.;         ///< mean over the vertices of the resolved sheet [m]
   unsigned long n_dofs     = 0;          ///< of the reference
   int n_macro_triangles    = 0;

@@ -2,13 +2,12 @@
 // A sheet that bends: with w3 of the cell and all terms of edges the error of the deflection stays
 // in k eps², with D^H alone it grows as the number of cells; any term of the wrong sign, side or
 // size brings that back.
-#include "tests/homogenization/cell/cells.h"
+#include "tests/verification/bend/bent_cases.h"
 #include "verification/bend/cell_twice.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <stdexcept>
 #include <string>
 
 using namespace homespun;
@@ -16,35 +15,6 @@ using namespace homespun::verification;
 
 namespace
 {
-constexpr double side = 0.01;
-enum Method
-{
-  affine,
-  localized,
-  with_edges,
-  full
-};
-
-/// Three kinds of stripes along x, of which no mirror line is an edge: all terms have a part.
-homogenization::UnitCell three_stripes()
-{
-  return tests::cell_of(tests::square_lattice(side), 12, 20,
-                        {homogenization::isotropic("soft", 1e6, 0.1, 5e-4, 400.),
-                         homogenization::isotropic("hard", 2e7, 0.4, 5e-4, 400.),
-                         homogenization::isotropic("between", 5e6, 0.2, 5e-4, 400.)},
-                        [](const double, const double f2) {
-                          return f2 < 0.3 ? 0 : f2 < 0.6 ? 1 : 2;
-                        });
-}
-
-const BendingLoad &load_of(const std::string &name)
-{
-  for (const BendingLoad &load : bending_loads)
-    if (load.name == name)
-      return load;
-  throw std::logic_error(name);
-}
-
 /// Of all methods, in k eps² and k eps.
 std::array<BendingError, bending_methods.size()>
 errors_of(const BendingCell &cell, const std::string &load, const int n, const int quads_per_cell)

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "verification/bend/bent_cloth.h"
+
+#include "homogenization/edges/cell_elements.h"
+#include "meshes/plain/index.h"
+#include "verification/record/timing.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace homespun::verification
+{
+using meshes::at;
+
+namespace
+{
+ClothStiffness stiffness_of_phases(const BendingCell &cell)
+{
+  return {cell.cell.stiffness_of_phase(), cell.bending_stiffness_of_phase};
+}
+
+/// C^H and D^H.
+ClothStiffness homogenized_stiffness(const BendingCell &cell)
+{
+  return {{homogenization::solve_cell(homogenization::CellElements(cell.cell, 2)).stiffness},
+          {cell.solved.stiffness}};
+}
+
+/// A homogenized cloth at its vertices, with w3 = K_a phi_a of the cell or without.
+BentState upsampled(const BendingCell &cell, const meshes::Sheet &sheet, const ClothSheet &cloth,
+                    const bool with_fluctuation)
+{
+  const ClothSurface surface = cloth.surface();
+  BentState state(cloth.mesh.n_vertices(), 6);
+  state << cloth.mesh.positions, surface.normals;
+  for (int v = 0; with_fluctuation && v < cloth.mesh.n_vertices(); ++v)
+  {
+    const Eigen::Vector3d w3 = cell.solved.deflection.middleRows<3>(
+                                 3 * cell.torus.vertex_of_original[at(sheet.cell_vertex(v))]) *
+                               surface.curvature.row(v).transpose();
+    const Eigen::RowVector3d normal = surface.normals.row(v),
+                             t1     = surface.tangents[0].row(v) + w3(1) * normal,
+                             t2     = surface.tangents[1].row(v) + w3(2) * normal;
+    state.row(v) << cloth.mesh.positions.row(v) + w3(0) * normal, t1.cross(t2).normalized();
+  }
+  return state;
+}
+
+/// Two flat triangles per cell through a homogenized cloth.
+BentState flat(const meshes::Sheet &sheet, const ClothSheet &cloth)
+{
+  const meshes::TriangleMesh coarse =
+    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+  std::vector<int> vertex_of_corner(at(coarse.n_vertices()));
+  const int n = sheet.n1;
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d place = n * sheet.fraction(sheet.mesh.vertices.row(v)),
+                             next  = place.array().round();
+    if ((place - next).norm() < 2. * n * meshes::image_tolerance)
+      vertex_of_corner[at(static_cast<int>(next(1)) * (n + 1) + static_cast<int>(next(0)))] = v;
+  }
+  BentState state(sheet.mesh.n_vertices(), 6);
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    const CoarsePoint point = coarse_point(sheet.fraction(sheet.mesh.vertices.row(v)), n);
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k)
+      corners.row(k) =
+        cloth.mesh.positions.row(vertex_of_corner[at(coarse.triangles(point.triangle, k))]);
+    const Eigen::RowVector3d a = corners.row(1) - corners.row(0),
+                             b = corners.row(2) - corners.row(0);
+    state.row(v) << point.barycentric.transpose() * corners, a.cross(b).normalized();
+  }
+  return state;
+}
+
+BentState state_of(const ClothSheet &cloth)
+{
+  BentState state(cloth.mesh.n_vertices(), 6);
+  state << cloth.mesh.positions, cloth.surface().normals;
+  return state;
+}
+} // namespace
+
+std::string why_no_large_turns(const homogenization::UnitCell &cell, const BendingLoad &load)
+{
+  const double area = cell.lattice.area();
+  if (meshes::signed_areas(cell.mesh).sum() < (1. - 1e-6) * area)
+    return "the cell has holes, which the triangles of the homogenized sheet do not fill";
+  if (load.by == BentBy::moment)
+    return "a moment on an edge is no dead load";
+  if (std::count(load.is_clamped.begin(), load.is_clamped.end(), true) > 1)
+    return "clamps that keep their distance stretch the sheet";
+  return {};
+}
+
+BentCloth::BentCloth(const BendingCell &cell, const BendingLoad &load, const int n)
+    : sheet(meshes::tile(cell.cell.mesh, cell.cell.lattice, n, n))
+    , resolved(sheet, sheet.mesh.material, stiffness_of_phases(cell), load)
+    , homogenized(sheet, Eigen::VectorXi::Zero(sheet.mesh.n_triangles()),
+                  homogenized_stiffness(cell), load)
+    , turned(homogenized)
+    , cell(cell)
+{
+}
+
+BentByTurns BentCloth::at(const double pressure)
+{
+  BentByTurns bent;
+  std::vector<std::pair<std::size_t, BentState>> states;
+  bent.seconds = seconds_of(
+    [&]()
+    {
+      bent.n_tangents += homogenized.bend(pressure);
+      bent.curvature                      = homogenized.mean_curvature();
+      std::vector<const ClothSheet *> all = {&homogenized};
+      if (cell.known.edges)
+      {
+        // E = P^-1 M of the sheet that is not turned, as in linear theory; times by how much the
+        // turn has changed the moment of the clamp, since the lever arms have.
+        const Eigen::MatrixX3d moments = homogenized.moments();
+        Eigen::MatrixX3d strains(moments.rows(), 3);
+        strains << moments.col(1), moments.col(0), -2. * moments.col(2);
+        turned.mesh.positions = homogenized.mesh.positions;
+        for (const ClothSheet *const last : {&homogenized, &turned})
+        {
+          const double change = last->moment_of_clamps() / homogenized.moment_of_clamps();
+          turned.turn_clamps(*cell.known.edges, change * strains);
+          bent.n_tangents += turned.bend(pressure);
+        }
+        all.push_back(&turned);
+      }
+      for (std::size_t k = 0; k < all.size(); ++k)
+        for (const std::size_t with_fluctuation : {0, 1})
+          states.emplace_back(2 * k + with_fluctuation,
+                              upsampled(cell, sheet, *all[k], with_fluctuation == 1));
+      states.emplace_back(bending_methods.size() - 1, flat(sheet, homogenized));
+    });
+  BentState reference;
+  bent.seconds_reference = seconds_of(
+    [&]()
+    {
+      bent.n_tangents += resolved.bend(pressure);
+      reference = state_of(resolved);
+    });
+  bent.deflection = reference.col(2).cwiseAbs().mean();
+  for (const auto &[method, state] : states)
+    bent.error_of_method[method] = state - reference;
+  return bent;
+}
+} // namespace homespun::verification

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "verification/bend/cloth_sheet.h"
+
+#include "meshes/plain/index.h"
+#include "shell/solver/cloth.h"
+#include "shell/terms/edge_angles.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <set>
+
+namespace homespun::verification
+{
+using meshes::at;
+
+namespace
+{
+bool is_on(const meshes::Sheet &sheet, const int edge, const int vertex)
+{
+  const double fraction = sheet.fraction(sheet.mesh.vertices.row(vertex))(edge / 2);
+  return std::abs(fraction - edge % 2) < 2. * meshes::image_tolerance;
+}
+
+/// The value at a point of a field that is linear near it, from the triangles within a radius.
+Eigen::Vector3d value_at(const Eigen::RowVector2d &point, const double radius,
+                         const meshes::Points &centres, const Eigen::MatrixX3d &field)
+{
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), right = Eigen::Matrix3d::Zero();
+  for (Eigen::Index t = 0; t < centres.rows(); ++t)
+    if (const Eigen::RowVector2d off = centres.row(t) - point; off.squaredNorm() < radius * radius)
+    {
+      const Eigen::Vector3d basis(1., off(0) / radius, off(1) / radius);
+      normal += basis * basis.transpose();
+      right += basis * field.row(t);
+    }
+  return normal.ldlt().solve(right).row(0).transpose();
+}
+} // namespace
+
+ClothSheet::ClothSheet(const meshes::Sheet &sheet, const Eigen::VectorXi &material,
+                       ClothStiffness given, const BendingLoad &load)
+    : mesh(meshes::placed_sheet(sheet.mesh, Eigen::Matrix3d::Identity().leftCols<2>(),
+                                Eigen::RowVector3d::Zero()))
+    , sheet(sheet)
+    , stiffness(std::move(given))
+    , areas(meshes::signed_areas(sheet.mesh))
+{
+  mesh.rest.material = material;
+  for (const Eigen::Matrix3d &D : stiffness.bending)
+    plates.push_back(shell::PlateStiffness::from(D));
+  std::set<int> vertices;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      for (int edge = 0; edge < meshes::CellEdges::n_sides; ++edge)
+      {
+        const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+        if (!load.is_clamped[at(edge)] || !is_on(sheet, edge, from) || !is_on(sheet, edge, to))
+          continue;
+        const Eigen::RowVector2d along =
+          (sheet.mesh.vertices.row(to) - sheet.mesh.vertices.row(from)).normalized();
+        clamps.push_back({from, to, t, edge, {-along(1), along(0)}});
+        vertices.insert({from, to});
+      }
+  held.assign(vertices.begin(), vertices.end());
+}
+
+std::vector<shell::ClampedEdge> ClothSheet::clamped_edges() const
+{
+  std::vector<shell::ClampedEdge> edges;
+  for (const ClampSide &one : clamps)
+  {
+    Eigen::Vector3d normal(0., 0., std::cos(one.turn));
+    normal.head<2>() = -std::sin(one.turn) * one.inwards;
+    edges.push_back({one.first, one.second, normal});
+  }
+  return edges;
+}
+
+int ClothSheet::bend(const double pressure)
+{
+  const Eigen::VectorXd shares = shell::lumped_masses(
+    mesh, std::vector<double>(stiffness.bending.size(), 1.)); // areas, in the place of masses
+  shell::Cloth cloth(mesh.positions, shares, held);
+  cloth.add(shell::membrane_term(mesh, stiffness.membrane));
+  cloth.add(shell::edge_angles_term(mesh, plates, clamped_edges()));
+  cloth.add(shell::gravity_term(shares, {0., 0., pressure}));
+  const shell::ClothEquilibrium found = cloth.solve_equilibrium(1e-9);
+  mesh.positions                      = cloth.positions();
+  return found.iterations;
+}
+
+void ClothSheet::turn_clamps(const meshes::CellEdges &edges, const Eigen::MatrixX3d &strains)
+{
+  meshes::Points centres(mesh.n_triangles(), 2);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    centres.row(t).setZero();
+    for (int k = 0; k < 3; ++k)
+      centres.row(t) += sheet.mesh.vertices.row(sheet.mesh.triangles(t, k)) / 3.;
+  }
+  const double radius = 4. * std::sqrt(2. * areas.maxCoeff()); // about 25 triangles
+  for (ClampSide &one : clamps)
+  {
+    const Eigen::RowVector2d middle =
+      0.5 * (sheet.mesh.vertices.row(one.first) + sheet.mesh.vertices.row(one.second));
+    one.turn = edges.sides[at(one.edge)].tension.dot(value_at(middle, radius, centres, strains));
+  }
+}
+
+Eigen::MatrixX3d ClothSheet::moments() const
+{
+  return shell::bending_moments(mesh, plates, clamped_edges());
+}
+
+double ClothSheet::moment_of_clamps() const
+{
+  const Eigen::MatrixX3d all = moments();
+  double sum                 = 0.;
+  for (const ClampSide &one : clamps)
+  {
+    const double length =
+      (sheet.mesh.vertices.row(one.second) - sheet.mesh.vertices.row(one.first)).norm();
+    const double n1 = one.inwards(0), n2 = one.inwards(1);
+    sum += length * all.row(one.triangle).dot(Eigen::RowVector3d(n1 * n1, n2 * n2, 2. * n1 * n2));
+  }
+  return sum;
+}
+
+Eigen::MatrixX3d ClothSheet::curvature_of_triangles() const
+{
+  Eigen::MatrixX3d curvature = moments();
+  std::vector<Eigen::Matrix3d> inverse;
+  for (const Eigen::Matrix3d &D : stiffness.bending)
+    inverse.push_back(D.inverse());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    curvature.row(t) *= inverse[at(mesh.rest.material(t))]; // symmetric
+  return curvature;
+}
+
+double ClothSheet::mean_curvature() const
+{
+  const Eigen::MatrixX3d curvature = curvature_of_triangles();
+  const Eigen::VectorXd squares =
+    curvature.leftCols<2>().rowwise().squaredNorm() + 0.5 * curvature.col(2).cwiseAbs2();
+  return std::sqrt(areas.dot(squares) / areas.sum());
+}
+
+/// Through the corners of each triangle goes the quadric of its curvature,
+///   −½ Σ_i<j l_i l_j κ(e_ij) along the normal,   κ(e) = e.κ e,
+/// and at a vertex the mean of all its triangles counts, by their areas: as good where the
+/// curvature jumps.
+ClothSurface ClothSheet::surface() const
+{
+  const Eigen::MatrixX3d of_triangles = curvature_of_triangles();
+  const Eigen::MatrixX3d zero         = Eigen::MatrixX3d::Zero(mesh.n_vertices(), 3);
+  ClothSurface surface                = {zero, {zero, zero}, zero};
+  Eigen::VectorXd sums                = Eigen::VectorXd::Zero(mesh.n_vertices());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const auto corners = mesh.triangles.row(t);
+    Eigen::Matrix<double, 2, 3> rest;
+    Eigen::Matrix3d space;
+    for (int k = 0; k < 3; ++k)
+    {
+      rest.col(k)  = mesh.rest.vertices.row(corners(k)).transpose();
+      space.col(k) = mesh.positions.row(corners(k)).transpose();
+    }
+    Eigen::Matrix2d legs;
+    legs << rest.col(1) - rest.col(0), rest.col(2) - rest.col(0);
+    Eigen::Matrix<double, 3, 2> F, gradients; // of the barycentric coordinates
+    gradients.bottomRows<2>()      = legs.inverse();
+    gradients.row(0)               = -gradients.row(1) - gradients.row(2);
+    F                              = space * gradients;
+    const Eigen::Vector3d normal   = F.col(0).cross(F.col(1)).normalized();
+    const Eigen::Matrix3d in_space = F * (F.transpose() * F).inverse() * gradients.transpose();
+    for (int k = 0; k < 3; ++k)
+    {
+      Eigen::Vector3d own = normal;
+      for (int j = 0; j < 3; ++j)
+      {
+        const Eigen::Vector2d e = rest.col(j) - rest.col(k);
+        own += 0.5 * in_space.col(j) *
+               of_triangles.row(t).dot(Eigen::RowVector3d(e(0) * e(0), e(1) * e(1), e(0) * e(1)));
+      }
+      const int v = corners(k);
+      surface.normals.row(v) += areas(t) * own.transpose();
+      surface.curvature.row(v) += areas(t) * of_triangles.row(t);
+      for (int axis = 0; axis < 2; ++axis)
+        surface.tangents[at(axis)].row(v) += areas(t) * F.col(axis).transpose();
+      sums(v) += areas(t);
+    }
+  }
+  surface.normals.rowwise().normalize();
+  for (Eigen::MatrixX3d &one : surface.tangents)
+  {
+    const Eigen::VectorXd along_normal = one.cwiseProduct(surface.normals).rowwise().sum();
+    one -= along_normal.asDiagonal() * surface.normals;
+  }
+  for (Eigen::MatrixX3d *one : {&surface.tangents[0], &surface.tangents[1], &surface.curvature})
+    one->array().colwise() /= sums.array();
+  return surface;
+}
+} // namespace homespun::verification
