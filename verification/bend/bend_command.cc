@@ -27,10 +27,13 @@ void check_bend_arguments(BendStudyOptions &study)
   study.curvatures.erase(std::unique(study.curvatures.begin(), study.curvatures.end()),
                          study.curvatures.end());
   for (const auto &[option, is_empty] : {std::pair("--curvatures", study.curvatures.empty()),
-                                         std::pair("--loads", study.loads.empty())})
+                                         std::pair("--loads", study.loads.empty()),
+                                         std::pair("--references", study.references.empty())})
     if (is_empty)
       faults.add(std::string(option) + ": found nothing; expected at least one");
   faults.check_names("--loads", study.loads, names_of_bending_loads());
+  faults.check_names("--references", study.references,
+                     {bending_references.begin(), bending_references.end()});
   faults.throw_if_any();
 }
 } // namespace
@@ -47,6 +50,8 @@ void BendCommand::add(CommandLine &line)
                          ->check(CLI::Range(1, 100))
                          ->capture_default_str();
   add_list(*command, "--loads", study.loads, "Loads, comma-separated");
+  add_list(*command, "--references", study.references,
+           "References, comma-separated: linear (small turns), biot (large turns; minutes)");
   add_list(*command, "--curvatures", study.curvatures,
            "Curvatures times cell side, comma-separated");
   command->add_flag("--quick", study.is_quick, "5 x 5 cells unless given otherwise: seconds");
@@ -60,13 +65,17 @@ void BendCommand::add(CommandLine &line)
      "curved\n"
      "surface), localized (and the deflection of the cell), affine+edges (and what clamps and "
      "free\n"
-     "edges add), full (all). The reference is the resolved plate of the phases, in linear "
-     "theory:\n"
-     "errors are proportional to the curvature, for small turns. Curvature is that of the "
+     "edges add), full (all). The reference linear is the resolved plate of the phases in linear\n"
+     "theory: errors are proportional to the curvature, for small turns. biot is the resolved "
+     "cloth,\n"
+     "at large turns, under cantilever-1 and cantilever-2: clamps alone have a term of edges "
+     "there, and\n"
+     "its loads are those of the curvatures in linear theory. Curvature is that of the "
      "homogenized\n"
      "sheet, root mean square. Normals decide how cloth is lit, positions where it is.\n"
      "Example:\n  homespun bend mycell.prm --quick\n"
-     "  homespun bend mycell.prm --loads cantilever-1,twist --cells 20"},
+     "  homespun bend mycell.prm --loads cantilever-1,twist --cells 20\n"
+     "  homespun bend mycell.prm --loads cantilever-2 --references linear,biot --cells 5"},
     [cells](Arguments &given)
     {
       if (given.study.is_quick && cells->count() == 0)

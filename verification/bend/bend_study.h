@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,14 @@ namespace homespun::verification
 /// The names of bending_loads.
 std::vector<std::string> names_of_bending_loads();
 
+/// Plates in linear theory; cloths of the law `biot` at large turns.
+inline constexpr std::array<const char *, 2> bending_references = {"linear", "biot"};
+
 struct BendStudyOptions : StudyOptions
 {
-  int n_cells                    = 10; ///< per side of the sheet
-  std::vector<std::string> loads = names_of_bending_loads();
+  int n_cells                         = 10; ///< per side of the sheet
+  std::vector<std::string> loads      = names_of_bending_loads();
+  std::vector<std::string> references = {"linear"};                   ///< of bending_references
   std::vector<double> curvatures = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}; ///< x cell side, ascending
   int n_cells_of_error_bar       = 3; ///< per side of the small sheet of the error bars
 };

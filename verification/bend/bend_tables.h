@@ -11,7 +11,8 @@ namespace homespun::verification
 {
 /// bend.csv: the distance of one method from one reference at one curvature, in position and
 /// normal, means over the vertices. In linear theory all are proportional to the curvature, solved
-/// once, and what a clamp or a free edge does to it is of small turns.
+/// once, and what a clamp or a free edge does to it is of small turns. At large turns (`biot`) the
+/// load is that of the curvature in linear theory, curvature_per_m what it makes.
 struct BendRow
 {
   static constexpr const char *file   = "bend.csv";

@@ -36,6 +36,12 @@ const std::vector<Pair> pairs = {{"full", {"affine", "affine+edges"}, "bent-clos
                                  {"full", {"affine"}, "bent-closer.affine"},
                                  {"localized", {"affine"}, "bent-closer.localized"}};
 
+/// A load as claims name it.
+std::string named(const std::string &load, const std::string &reference)
+{
+  return reference == "linear" ? load : load + " at large turns";
+}
+
 const BendRow *row_of(const std::vector<BendRow> &rows, const std::string &method)
 {
   const auto found = std::find_if(rows.begin(), rows.end(),
@@ -52,7 +58,7 @@ Verdict verdict_on(const std::vector<BendRow> &rows, const Pair &pair, const Qua
       if (than == nullptr || row->*what.error < than->*what.error)
         than = row;
   Words words        = {{"cell", rows.front().cell},
-                        {"load", rows.front().load},
+                        {"load", named(rows.front().load, rows.front().reference)},
                         {"what", what.name},
                         {"method", pair.method},
                         {"note", ""}};
@@ -94,10 +100,11 @@ std::vector<Verdict> verdicts_on_bending(const std::vector<BendRow> &rows)
 }
 
 void add_owed_of_bending(const std::string &cell, const std::string &load,
-                         std::vector<OwedClaim> &owed)
+                         const std::string &reference, std::vector<OwedClaim> &owed)
 {
   for (const Pair &pair : pairs)
     for (const Quantity &what : quantities)
-      owed.push_back({pair.id, {{"cell", cell}, {"load", load}, {"what", what.name}}});
+      owed.push_back(
+        {pair.id, {{"cell", cell}, {"load", named(load, reference)}, {"what", what.name}}});
 }
 } // namespace homespun::verification

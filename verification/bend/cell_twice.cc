@@ -47,11 +47,18 @@ OptionalErrors distance_of_meshes(const CellTwice &cell, const BendingLoad &load
 {
   const BentSheet drawn(cell.drawn, load, n, macro_quads_per_cell(n)),
     finer(cell.finer, load, n, macro_quads_per_cell(n));
+  return distance_of_errors(drawn.sheet, drawn.error_of_method, finer.sheet, finer.error_of_method);
+}
+
+OptionalErrors distance_of_errors(const meshes::Sheet &drawn,
+                                  const BentSheet::OfMethods<BentState> &on_drawn,
+                                  const meshes::Sheet &refined,
+                                  const BentSheet::OfMethods<BentState> &on_refined)
+{
   OptionalErrors distances;
   for (std::size_t k = 0; k < distances.size(); ++k)
-    if (drawn.error_of_method[k].size() > 0 && finer.error_of_method[k].size() > 0)
-      distances[k] = mean_of(drawn.error_of_method[k] -
-                             at_drawn_vertices(drawn.sheet, finer.sheet, finer.error_of_method[k]));
+    if (on_drawn[k].size() > 0 && on_refined[k].size() > 0)
+      distances[k] = mean_of(on_drawn[k] - at_drawn_vertices(drawn, refined, on_refined[k]));
   return distances;
 }
 

@@ -25,6 +25,12 @@ using OptionalErrors = BentSheet::OfMethods<std::optional<BendingError>>;
 /// root mean square 1/m. Nothing of methods that are not known on both.
 OptionalErrors distance_of_meshes(const CellTwice &cell, const BendingLoad &load, int n);
 
+/// The same of errors that are known on both meshes.
+OptionalErrors distance_of_errors(const meshes::Sheet &drawn,
+                                  const BentSheet::OfMethods<BentState> &on_drawn,
+                                  const meshes::Sheet &refined,
+                                  const BentSheet::OfMethods<BentState> &on_refined);
+
 /// Bars from the distances on a small sheet: three times, because two meshes confirm no order
 /// (Roache 1994), and in position by the ratio of the sheets' sides: what a mesh misses of slip and
 /// beam of an edge turns the sheet, whose position moves by its side.
