@@ -42,6 +42,26 @@ class Bend(InFolder):
             if one["id"] == "bent-closer.affine" and "position" in one["claim"]:
                 self.assertEqual(one["verdict"], "PASS", one)
 
+    def test_at_large_turns_cantilevers_bend_and_the_turned_clamp_is_closer(self):
+        rows, claims = self.bend(broken_cells_test.Cell().write(self.folder),
+                                 "--references", "biot", "--loads", "cantilever-2,twist",
+                                 "--curvatures", "0.05,0.4")
+        self.assertEqual({(row["load"], row["reference"]) for row in rows},
+                         {("cantilever-2", "biot")})
+        self.assertEqual(len(rows), 2 * 5)
+        error = {(row["curvature_times_cell"], row["method"]): float(row["error_mean_m"])
+                 for row in rows}
+        for bending in ("0.05", "0.4"):
+            self.assertLess(error[bending, "full"], 0.2 * error[bending, "affine"], error)
+        # Less than proportional, as the sheet comes to hang.
+        self.assertLess(error["0.4", "affine"], 0.8 * 8 * error["0.05", "affine"])
+        self.assertEqual({"at large turns" in one["claim"] for one in claims}, {True})
+        self.assertIn("PASS", {one["verdict"] for one in claims
+                               if one["id"] == "bent-closer.affine"})
+        left_out = json.loads((self.folder / "out/study.json").read_text())["left_out"]
+        self.assertTrue([one for one in left_out if "twist" in one["what"]
+                         and "stretch" in one["why"]], left_out)
+
     def test_of_one_material_nothing_is_claimed(self):
         cell = broken_cells_test.Cell()
         cell.keys["Young's modulus"] = "soft: 1e6, hard: 1e6"
@@ -94,9 +114,11 @@ class Bend(InFolder):
 
     def test_bad_options_are_refused_each_with_its_name(self):
         result = run("bend", broken_cells_test.Cell().write(self.folder), "--loads", "roll,fold",
-                     "--curvatures", "0.1,-1", "--output", self.folder / "out")
+                     "--curvatures", "0.1,-1", "--references", "green",
+                     "--output", self.folder / "out")
         self.assertEqual(result.returncode, 2)
-        for word in ("--loads", "fold", "cantilever-1", "--curvatures", "-1"):
+        for word in ("--loads", "fold", "cantilever-1", "--curvatures", "-1", "--references",
+                     "biot"):
             self.assertIn(word, result.stderr)
         self.assertFalse((self.folder / "out").exists())
 
