@@ -49,7 +49,8 @@ const BendRow *row_of(const std::vector<BendRow> &rows, const std::string &metho
   return found == rows.end() ? nullptr : &*found;
 }
 
-Verdict verdict_on(const std::vector<BendRow> &rows, const Pair &pair, const Quantity &what)
+Verdict verdict_on(const BendRow &of, const std::vector<BendRow> &rows, const Pair &pair,
+                   const Quantity &what)
 {
   const BendRow *const one = row_of(rows, pair.method);
   const BendRow *than      = nullptr;
@@ -57,8 +58,8 @@ Verdict verdict_on(const std::vector<BendRow> &rows, const Pair &pair, const Qua
     if (const BendRow *const row = row_of(rows, other))
       if (than == nullptr || row->*what.error < than->*what.error)
         than = row;
-  Words words        = {{"cell", rows.front().cell},
-                        {"load", named(rows.front().load, rows.front().reference)},
+  Words words        = {{"cell", of.cell},
+                        {"load", named(of.load, of.reference)},
                         {"what", what.name},
                         {"method", pair.method},
                         {"note", ""}};
@@ -66,7 +67,8 @@ Verdict verdict_on(const std::vector<BendRow> &rows, const Pair &pair, const Qua
   { return judged(pair.id, words, outcome, value); };
   if (one == nullptr || than == nullptr)
   {
-    words["note"] = "; open: no terms of edges are known";
+    words["note"] =
+      rows.empty() ? "; open: no equilibrium was found" : "; open: no terms of edges are known";
     return verdict(Outcome::inconclusive, BendRow::none);
   }
   if (pair.others.size() > 1)
@@ -89,13 +91,12 @@ Verdict verdict_on(const std::vector<BendRow> &rows, const Pair &pair, const Qua
 }
 } // namespace
 
-std::vector<Verdict> verdicts_on_bending(const std::vector<BendRow> &rows)
+std::vector<Verdict> verdicts_on_bending(const BendRow &of, const std::vector<BendRow> &rows)
 {
   std::vector<Verdict> verdicts;
-  if (!rows.empty())
-    for (const Pair &pair : pairs)
-      for (const Quantity &what : quantities)
-        verdicts.push_back(verdict_on(rows, pair, what));
+  for (const Pair &pair : pairs)
+    for (const Quantity &what : quantities)
+      verdicts.push_back(verdict_on(of, rows, pair, what));
   return verdicts;
 }
 

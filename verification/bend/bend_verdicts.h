@@ -16,8 +16,9 @@ namespace homespun::verification
 /// than `affine`; and the same of `localized`, whose base is `affine`. By more than the error bars
 /// of both; FAIL where it is farther by more than that; open within them, where a method or a bar
 /// is not known, and where both errors are what the solvers leave.
-/// @param rows of one cell, load and reference at one curvature
-std::vector<Verdict> verdicts_on_bending(const std::vector<BendRow> &rows);
+/// @param of names cell, load and reference
+/// @param rows of them at one curvature; none where no equilibrium was found
+std::vector<Verdict> verdicts_on_bending(const BendRow &of, const std::vector<BendRow> &rows);
 
 /// The claims of verdicts_on_bending().
 void add_owed_of_bending(const std::string &cell, const std::string &load,
