@@ -133,9 +133,14 @@ double PlateWaves::compression(const Eigen::Vector2d &wave_vector, const double 
 WrinkleOnset PlateWaves::onset(const Eigen::Vector2d &direction, const double wavenumber,
                                const double foundation) const
 {
+  const double shortest = 0.5 * wavenumber, longest = 2. * wavenumber;
   const auto [k, compression] = boost::math::tools::brent_find_minima(
     [&](const double length) { return this->compression(length * direction, foundation); },
-    0.7 * wavenumber, 1.4 * wavenumber, std::numeric_limits<double>::digits / 3);
+    shortest, longest, std::numeric_limits<double>::digits / 3);
+  if (k < 1.01 * shortest || k > 0.99 * longest)
+    throw meshes::NotConverged("waves of a pressed sheet: the first to begin is not among those "
+                               "half to twice as long as that of D^H",
+                               {});
   return {k, compression};
 }
 

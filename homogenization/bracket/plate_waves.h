@@ -39,9 +39,10 @@ public:
   /// @throws NotConverged where no compression makes them
   double compression(const Eigen::Vector2d &wave_vector, double foundation) const;
 
-  /// The least of all compressions for wave vectors along a direction, from 0.7 to 1.4 times a
-  /// length.
+  /// The least of all compressions for wave vectors along a direction, from half of a length to
+  /// twice it.
   /// @param direction of length 1
+  /// @throws NotConverged where the least one lies at an end of that range, or as compression()
   WrinkleOnset onset(const Eigen::Vector2d &direction, double wavenumber, double foundation) const;
 
 private:

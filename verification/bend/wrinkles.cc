@@ -2,6 +2,8 @@
 #include "verification/bend/wrinkles.h"
 
 #include "homogenization/bracket/plate_waves.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
 #include "verification/cell/discretization_distance.h"
 
 #include <cmath>
@@ -10,6 +12,7 @@ namespace homespun::verification
 {
 using homogenization::PlateWaves;
 using homogenization::WrinkleOnset;
+using meshes::at;
 
 namespace
 {
@@ -19,12 +22,38 @@ WrinkleOnset parabola(const PlateWaves &waves, const Eigen::Vector2d &direction,
                       const WrinkleOnset &near, const double foundation)
 {
   const double step = 0.02 * near.wavenumber;
-  const auto at     = [&](const double wavenumber)
+  const auto value  = [&](const double wavenumber)
   { return waves.compression(wavenumber * direction, foundation); };
-  const double left = at(near.wavenumber - step), middle = at(near.wavenumber),
-               right = at(near.wavenumber + step), bend = left - 2. * middle + right;
+  const double left = value(near.wavenumber - step), middle = value(near.wavenumber),
+               right = value(near.wavenumber + step), bend = left - 2. * middle + right;
   return {near.wavenumber + 0.5 * step * (left - right) / bend,
           middle - (left - right) * (left - right) / (8. * bend)};
+}
+
+/// Mean of D over the cell, holes counting as zero.
+Eigen::Matrix3d mean_bending_stiffness(const homogenization::UnitCell &cell,
+                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase)
+{
+  const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
+  Eigen::Matrix3d mean        = Eigen::Matrix3d::Zero();
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+    mean += areas(t) / cell.lattice.area() * stiffness_of_phase[at(cell.mesh.material(t))];
+  return mean;
+}
+
+/// @param row has the wavelength of D^H
+void resolve(const PlateWaves &drawn, const PlateWaves &finer, const Eigen::Vector2d &direction,
+             const double foundation, WrinkleRow &row)
+{
+  const double turn        = 2. * std::acos(-1.);
+  const WrinkleOnset onset = drawn.onset(direction, turn / row.homogenized_wavelength, foundation),
+                     here  = parabola(drawn, direction, onset, foundation),
+                     there = parabola(finer, direction, onset, foundation);
+  row.wavelength           = turn / onset.wavenumber;
+  row.compression          = onset.compression;
+  row.wavelength_bar =
+    safety_unconfirmed * std::abs(turn / here.wavenumber - turn / there.wavenumber);
+  row.compression_bar = safety_unconfirmed * std::abs(here.compression - there.compression);
 }
 } // namespace
 
@@ -45,11 +74,10 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
         homogenization::stress_of_compression(on_mesh.torus, unit.stiffness_of_phase(), n));
     };
     const PlateWaves drawn = waves(cell.drawn), finer = waves(cell.finer);
-    const auto bends = [&](const BendingCell &on_mesh)
-    {
-      const Eigen::Vector3d kappa(n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1));
-      return kappa.dot(on_mesh.solved.stiffness * kappa);
-    };
+    const Eigen::Vector3d kappa(n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1));
+    const double D      = kappa.dot(cell.drawn.solved.stiffness * kappa),
+                 mean_D = kappa.dot(
+                   mean_bending_stiffness(unit, cell.drawn.bending_stiffness_of_phase) * kappa);
     for (const int n_cells : cells_per_wave)
     {
       WrinkleRow row;
@@ -57,19 +85,18 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
       row.axis                    = axis + 1;
       row.cells_per_wave          = n_cells;
       const double wavenumber     = 2. * std::acos(-1.) / (n_cells * side);
-      row.foundation              = bends(cell.drawn) * std::pow(wavenumber, 4);
+      row.foundation              = D * std::pow(wavenumber, 4);
       row.homogenized_wavelength  = n_cells * side;
-      row.homogenized_compression = 2. * std::sqrt(row.foundation * bends(cell.drawn));
-      const double foundation     = row.foundation / covered;
-      const WrinkleOnset onset    = drawn.onset(n, wavenumber, foundation),
-                         here     = parabola(drawn, n, onset, foundation),
-                         there    = parabola(finer, n, onset, foundation);
-      const auto length           = [](const WrinkleOnset &one)
-      { return 2. * std::acos(-1.) / one.wavenumber; };
-      row.wavelength      = length(onset);
-      row.compression     = onset.compression;
-      row.wavelength_bar  = safety_unconfirmed * std::abs(length(here) - length(there));
-      row.compression_bar = safety_unconfirmed * std::abs(here.compression - there.compression);
+      row.homogenized_compression = 2. * std::sqrt(row.foundation * D);
+      row.most_compression        = 2. * std::sqrt(row.foundation * mean_D);
+      try
+      {
+        resolve(drawn, finer, n, row.foundation / covered, row);
+      }
+      catch (const meshes::NotConverged &)
+      {
+        // The row says that nothing was found.
+      }
       rows.push_back(row);
     }
   }

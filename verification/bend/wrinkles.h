@@ -12,6 +12,6 @@ namespace homespun::verification
 {
 /// For each lattice vector, along which the sheet is pressed, and each number of cells per wave: a
 /// row, with the foundation (homogenization/bracket/plate_waves.h) that makes D^H wrinkle in waves
-/// of so many cells.
+/// of so many cells. What is resolved is none where waves do not converge.
 std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &cells_per_wave);
 } // namespace homespun::verification

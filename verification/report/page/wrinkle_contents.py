@@ -30,6 +30,12 @@ def wrinkle_sentences(rows):
     sentences = []
     for axis in sorted({row["axis"] for row in rows}):
         row = min((r for r in rows if r["axis"] == axis), key=lambda r: r["cells_per_wave"])
+        where = (
+            f"Pressed along axis {int(axis)}, where Dᴴ has waves of {int(row['cells_per_wave'])} cells,"
+        )
+        if not math.isfinite(row["compression_N_per_m"]):
+            sentences.append(f"{where} no wave of the resolved sheet was found near that of Dᴴ.")
+            continue
         parts = []
         for name, unit, less, more in QUANTITIES:
             value, bar = change(row, name, unit)
@@ -40,10 +46,7 @@ def wrinkle_sentences(rows):
             else:
                 size = change_text(row, name, unit).lstrip("−")
                 parts.append(f"its {name} is {size} {less if value < 0 else more} than by Dᴴ")
-        sentences.append(
-            f"Pressed along axis {int(axis)}, where Dᴴ has waves of {int(row['cells_per_wave'])} cells, a"
-            f" sheet begins to wrinkle: {' and '.join(parts)}."
-        )
+        sentences.append(f"{where} a sheet begins to wrinkle: {' and '.join(parts)}.")
     return sentences
 
 
@@ -52,13 +55,15 @@ def wrinkle_rows(rows):
     table = []
     for row in rows:
         compression, wavelength = row["compression_N_per_m"], row["wavelength_m"]
+        found = math.isfinite(compression)
         table.append([
             int(row["axis"]), int(row["cells_per_wave"]),
             length(row["homogenized_wavelength_m"]),
-            length_with_bar(wavelength, seen(wavelength, row["wavelength_bar_m"])),
-            change_text(row, "wavelength", "m"),
+            length_with_bar(wavelength, seen(wavelength, row["wavelength_bar_m"])) if found else "–",
+            change_text(row, "wavelength", "m") if found else "–",
             three(row["homogenized_compression_N_per_m"]),
-            number_with_bar(compression, seen(compression, row["compression_bar_N_per_m"])),
-            change_text(row, "compression", "N_per_m"),
+            number_with_bar(compression, seen(compression, row["compression_bar_N_per_m"]))
+            if found else "–",
+            change_text(row, "compression", "N_per_m") if found else "–",
         ])
     return table
