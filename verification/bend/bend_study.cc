@@ -16,7 +16,6 @@
 #include "verification/record/progress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -77,10 +76,13 @@ private:
   {
     std::vector<OwedClaim> owed = owed_of_cells(cells());
     for (const UnitCell &cell : cells())
+    {
+      add_owed_of_wrinkles(cell.name, cells_per_wave, owed);
       for (const BendingLoad &load : loads)
         for (const std::string &reference : options.references)
           if (reference == linear || why_no_large_turns(cell, load).empty())
             add_owed_of_bending(cell.name, load.name, reference, owed);
+    }
     return owed;
   }
 
@@ -249,6 +251,7 @@ private:
       row.reference                    = compared.reference;
       row.method                       = bending_methods[k];
       row.cells                        = options.n_cells;
+      row.side                         = side_of(cell);
       row.macro_triangles              = compared.macro_triangles;
       row.fine_triangles               = sheet.mesh.n_triangles();
       row.curvature                    = compared.curvature;
@@ -305,6 +308,8 @@ private:
           if (!rows.empty() || (reference == biot && ended.count({of.cell, of.load}) > 0))
             add(verdicts_on_bending(of, rows));
         }
+    for (const WrinkleRow &row : wrinkle_table->rows())
+      verdicts.push_back(verdict_on_wrinkles(row));
     left_out.push_back(
       is_asked(biot)
         ? nlohmann::ordered_json({{"what", "terms of free edges at large turns, mass, contact"},

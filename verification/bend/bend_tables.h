@@ -9,10 +9,10 @@
 
 namespace homespun::verification
 {
-/// bend.csv: the distance of one method from one reference at one curvature, in position and
-/// normal, means over the vertices. In linear theory all are proportional to the curvature, solved
-/// once, and what a clamp or a free edge does to it is of small turns. At large turns (`biot`) the
-/// load is that of the curvature in linear theory, curvature_per_m what it makes.
+/// bend.csv: the distance of one method from one reference under one load, in position and normal,
+/// means over the vertices. The load is told by the curvature that it makes in linear theory. There
+/// all are proportional to it and solved once, and turns are small; at large turns (`biot`) the
+/// sheet bends less, to curvature_per_m.
 struct BendRow
 {
   static constexpr const char *file   = "bend.csv";
@@ -20,18 +20,20 @@ struct BendRow
   static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
 
   std::string cell, load;
-  double bending = 0.; ///< macro curvature, root mean square over the sheet, x cell side [-]
+  /// Of the homogenized sheet in linear theory, root mean square, x cell side [-].
+  double bending = 0.;
   std::string reference, method;
   int cells           = 0;    ///< per side of the sheet
+  double side         = none; ///< of the cell, sqrt(|Y|) [m]
   int macro_triangles = 0;    ///< of the homogenized sheet
   int fine_triangles  = 0;    ///< of the reference
-  double curvature    = none; ///< [1/m]
+  double curvature    = none; ///< of the homogenized sheet, root mean square [1/m]
   double deflection   = none; ///< of the reference [m]
   double mean         = none; ///< of the position [m]
   double bar          = none; ///< of that mean: by finer meshes of cell, sheet and macro sheet [m]
   double interior     = none; ///< mean over vertices of no cell at an edge [m]
   double edge         = none; ///< mean over the others [m]
-  double normal       = none; ///< angle between the normals [rad]
+  double normal       = none; ///< distance of the unit normals, of small angles the angle [rad]
   double normal_bar   = none; ///< [rad]
   double normal_interior   = none; ///< [rad]
   double normal_edge       = none; ///< [rad]
@@ -47,6 +49,7 @@ struct BendRow
     column("reference", &BendRow::reference, Domain::name);
     column("method", &BendRow::method, Domain::name);
     column("cells", &BendRow::cells, Domain::positive);
+    column("cell_side_m", &BendRow::side, Domain::positive);
     column("macro_triangles", &BendRow::macro_triangles, Domain::positive);
     column("fine_triangles", &BendRow::fine_triangles, Domain::positive);
     column("curvature_per_m", &BendRow::curvature, Domain::positive);
@@ -66,6 +69,7 @@ struct BendRow
 
 /// wrinkles.csv: the compression along an axis of the lattice, and the wavelength, at which an
 /// infinite sheet on an elastic foundation leaves its plane; resolved on one cell, and by D^H.
+/// Where no such wave was found what is resolved is empty.
 struct WrinkleRow
 {
   static constexpr const char *file   = "wrinkles.csv";
@@ -82,6 +86,7 @@ struct WrinkleRow
   double compression             = none; ///< [N/m]
   double compression_bar         = none; ///< by a finer mesh [N/m]
   double homogenized_compression = none; ///< of D^H [N/m]
+  double most_compression        = none; ///< guaranteed: of a wave without fluctuation [N/m]
 
   template <typename Column>
   static void columns(Column &&column)
@@ -97,6 +102,7 @@ struct WrinkleRow
     column("compression_bar_N_per_m", &WrinkleRow::compression_bar, Domain::not_negative);
     column("homogenized_compression_N_per_m", &WrinkleRow::homogenized_compression,
            Domain::positive);
+    column("most_compression_N_per_m", &WrinkleRow::most_compression, Domain::positive);
   }
 };
 } // namespace homespun::verification

@@ -75,8 +75,7 @@ Verdict verdict_on(const BendRow &of, const std::vector<BendRow> &rows, const Pa
     words["note"] = "; base: " + than->method;
   const double error = one->*what.error, other = than->*what.error,
                bars = one->*what.bar + than->*what.bar, gain = other - error,
-               side = one->bending / one->curvature,
-               size = one->curvature * std::pow(side, what.power);
+               size = one->bending * std::pow(one->side, what.power - 1);
   if (!(other > bent_to * size))
   {
     words["note"] += "; open: there is nothing to restore";
@@ -107,5 +106,30 @@ void add_owed_of_bending(const std::string &cell, const std::string &load,
     for (const Quantity &what : quantities)
       owed.push_back(
         {pair.id, {{"cell", cell}, {"load", named(load, reference)}, {"what", what.name}}});
+}
+
+Verdict verdict_on_wrinkles(const WrinkleRow &row)
+{
+  const double ratio  = row.compression / row.most_compression,
+               limit  = 1. + row.compression_bar / row.most_compression;
+  const bool is_known = std::isfinite(ratio) && std::isfinite(limit);
+  return judged("wrinkle-bound",
+                {{"cell", row.cell},
+                 {"axis", row.axis},
+                 {"cells", row.cells_per_wave},
+                 {"limit", is_known ? limit : 1.},
+                 {"note", is_known ? "" : "; open: no wave was found"}},
+                !is_known        ? Outcome::inconclusive
+                : ratio <= limit ? Outcome::pass
+                                 : Outcome::fail,
+                ratio);
+}
+
+void add_owed_of_wrinkles(const std::string &cell, const std::vector<int> &cells_per_wave,
+                          std::vector<OwedClaim> &owed)
+{
+  for (const int axis : {1, 2})
+    for (const int cells : cells_per_wave)
+      owed.push_back({"wrinkle-bound", {{"cell", cell}, {"axis", axis}, {"cells", cells}}});
 }
 } // namespace homespun::verification

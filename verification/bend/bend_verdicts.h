@@ -20,7 +20,15 @@ namespace homespun::verification
 /// @param rows of them at one curvature; none where no equilibrium was found
 std::vector<Verdict> verdicts_on_bending(const BendRow &of, const std::vector<BendRow> &rows);
 
+/// That the sheet wrinkles no later than as a wave without fluctuation, within its error bar; open
+/// where no wave was found.
+Verdict verdict_on_wrinkles(const WrinkleRow &row);
+
 /// The claims of verdicts_on_bending().
 void add_owed_of_bending(const std::string &cell, const std::string &load,
                          const std::string &reference, std::vector<OwedClaim> &owed);
+
+/// The claims of verdict_on_wrinkles() for each axis.
+void add_owed_of_wrinkles(const std::string &cell, const std::vector<int> &cells_per_wave,
+                          std::vector<OwedClaim> &owed);
 } // namespace homespun::verification

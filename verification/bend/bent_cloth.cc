@@ -50,29 +50,18 @@ BentState upsampled(const BendingCell &cell, const meshes::Sheet &sheet, const C
 /// Two flat triangles per cell through a homogenized cloth.
 BentState flat(const meshes::Sheet &sheet, const ClothSheet &cloth)
 {
-  const meshes::TriangleMesh coarse =
-    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
-  std::vector<int> vertex_of_corner(at(coarse.n_vertices()));
   const int n = sheet.n1;
+  Eigen::MatrixX3d corners((n + 1) * (n + 1), 3); // of coarse_mesh()
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
   {
     const Eigen::RowVector2d place = n * sheet.fraction(sheet.mesh.vertices.row(v)),
                              next  = place.array().round();
     if ((place - next).norm() < 2. * n * meshes::image_tolerance)
-      vertex_of_corner[at(static_cast<int>(next(1)) * (n + 1) + static_cast<int>(next(0)))] = v;
+      corners.row(static_cast<int>(next(1)) * (n + 1) + static_cast<int>(next(0))) =
+        cloth.mesh.positions.row(v);
   }
-  BentState state(sheet.mesh.n_vertices(), 6);
-  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-  {
-    const CoarsePoint point = coarse_point(sheet.fraction(sheet.mesh.vertices.row(v)), n);
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.row(k) =
-        cloth.mesh.positions.row(vertex_of_corner[at(coarse.triangles(point.triangle, k))]);
-    const Eigen::RowVector3d a = corners.row(1) - corners.row(0),
-                             b = corners.row(2) - corners.row(0);
-    state.row(v) << point.barycentric.transpose() * corners, a.cross(b).normalized();
-  }
+  BentState state = flat_triangles(sheet, corners);
+  state.rightCols<3>().rowwise().normalize();
   return state;
 }
 

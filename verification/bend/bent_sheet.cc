@@ -2,11 +2,11 @@
 #include "verification/bend/bent_sheet.h"
 
 #include "meshes/plain/index.h"
+#include "verification/record/timing.h"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +21,25 @@ namespace
 void set_state(BentState &state, const int v, const Eigen::Vector3d &w_and_gradient)
 {
   state.row(v) << 0., 0., w_and_gradient(0), -w_and_gradient(1), -w_and_gradient(2), 0.;
+}
+
+/// A point in a triangle of coarse_sheet().
+struct CoarsePoint
+{
+  int triangle;
+  Eigen::Vector3d barycentric;
+};
+
+/// @param fraction on the sheet @param n quads along a side
+CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
+{
+  const Eigen::RowVector2d place = fraction * n;
+  const int i                    = std::clamp(static_cast<int>(place(0)), 0, n - 1),
+            j                    = std::clamp(static_cast<int>(place(1)), 0, n - 1);
+  const double f = place(0) - i, g = place(1) - j;
+  if (f >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
+    return {2 * (j * n + i), {1. - f, f - g, g}};
+  return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
 }
 
 /// The homogenized plate of a sheet on a mesh of n x n quads.
@@ -67,26 +86,13 @@ BentState upsampled(const BendingCell &cell, const MacroPlate &macro, const Eige
 /// Two flat triangles per cell through a homogenized deflection.
 BentState flat(const MacroPlate &macro, const Eigen::VectorXd &w)
 {
-  const meshes::Sheet &sheet = macro.sheet;
-  const meshes::TriangleMesh coarse =
-    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
-  BentState state(sheet.mesh.n_vertices(), 6);
-  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-  {
-    const CoarsePoint point = coarse_point(sheet.fraction(sheet.mesh.vertices.row(v)), sheet.n1);
-    Eigen::Matrix<double, 3, 2> corners;
-    Eigen::Vector3d of_corners;
-    for (int k = 0; k < 3; ++k)
-    {
-      corners.row(k) = coarse.vertices.row(coarse.triangles(point.triangle, k));
-      of_corners(k)  = macro.values(sheet.fraction(corners.row(k)), w)(0);
-    }
-    Eigen::Matrix2d legs;
-    legs << corners.row(1) - corners.row(0), corners.row(2) - corners.row(0);
-    const Eigen::Vector2d rise(of_corners(1) - of_corners(0), of_corners(2) - of_corners(0));
-    const Eigen::Vector2d slope = legs.inverse() * rise;
-    set_state(state, v, {point.barycentric.dot(of_corners), slope(0), slope(1)});
-  }
+  const meshes::Points corners = coarse_mesh(macro.sheet).vertices;
+  Eigen::MatrixX3d raised(corners.rows(), 3);
+  for (int v = 0; v < static_cast<int>(corners.rows()); ++v)
+    raised.row(v) << corners.row(v), macro.values(macro.sheet.fraction(corners.row(v)), w)(0);
+  BentState state = flat_triangles(macro.sheet, raised);
+  for (int v = 0; v < static_cast<int>(state.rows()); ++v)
+    set_state(state, v, {state(v, 2), -state(v, 3) / state(v, 5), -state(v, 4) / state(v, 5)});
   return state;
 }
 } // namespace
@@ -122,15 +128,25 @@ BendingError mean_of(const BentState &difference)
   return {position_errors(difference).mean(), normal_errors(difference).mean()};
 }
 
-CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
+meshes::TriangleMesh coarse_mesh(const meshes::Sheet &sheet)
 {
-  const Eigen::RowVector2d place = fraction * n;
-  const int i                    = std::clamp(static_cast<int>(place(0)), 0, n - 1),
-            j                    = std::clamp(static_cast<int>(place(1)), 0, n - 1);
-  const double f = place(0) - i, g = place(1) - j;
-  if (f >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
-    return {2 * (j * n + i), {1. - f, f - g, g}};
-  return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
+  return meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+}
+
+BentState flat_triangles(const meshes::Sheet &sheet, const Eigen::MatrixX3d &corners)
+{
+  const meshes::TriangleMesh coarse = coarse_mesh(sheet);
+  BentState state(sheet.mesh.n_vertices(), 6);
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    const CoarsePoint point = coarse_point(sheet.fraction(sheet.mesh.vertices.row(v)), sheet.n1);
+    Eigen::Matrix3d its;
+    for (int k = 0; k < 3; ++k)
+      its.row(k) = corners.row(coarse.triangles(point.triangle, k));
+    const Eigen::RowVector3d a = its.row(1) - its.row(0), b = its.row(2) - its.row(0);
+    state.row(v) << point.barycentric.transpose() * its, a.cross(b);
+  }
+  return state;
 }
 
 int macro_quads_per_cell(const int n_cells)
@@ -142,21 +158,19 @@ BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int
                      const int quads_per_cell)
     : sheet(meshes::tile(cell.cell.mesh, cell.cell.lattice, n, n))
 {
-  using Clock      = std::chrono::steady_clock;
-  const auto since = [](const Clock::time_point start)
-  { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  const auto start_of_reference = Clock::now();
-  const PlateSheet fine(sheet, sheet.mesh, cell.bending_stiffness_of_phase);
-  const Eigen::VectorXd resolved = fine.deflection(load, 1.);
-  n_dofs                         = static_cast<unsigned long>(fine.plate.n_dofs());
   BentState reference(sheet.mesh.n_vertices(), 6);
-  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-    set_state(reference, v, resolved.segment<3>(3 * v));
-  seconds_reference = since(start_of_reference);
-  const auto start  = Clock::now();
+  seconds_reference = seconds_of(
+    [&]()
+    {
+      const PlateSheet fine(sheet, sheet.mesh, cell.bending_stiffness_of_phase);
+      const Eigen::VectorXd resolved = fine.deflection(load, 1.);
+      n_dofs                         = static_cast<unsigned long>(fine.plate.n_dofs());
+      for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+        set_state(reference, v, resolved.segment<3>(3 * v));
+    });
   // A pressure acts on the material, not on holes.
   const double covered = meshes::signed_areas(cell.cell.mesh).sum() / cell.cell.lattice.area();
-  for (const int n_quads : {n * quads_per_cell / 2, n * quads_per_cell})
+  const auto upsample  = [&](const int n_quads)
   {
     const MacroPlate macro(cell, sheet, n_quads);
     n_macro_triangles               = 2 * n_quads * n_quads;
@@ -184,7 +198,12 @@ BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int
     }
     unit_load  = 1. / curvature;
     deflection = reference.col(2).cwiseAbs().mean() / curvature;
-  }
-  seconds = since(start);
+  };
+  seconds = seconds_of(
+    [&]()
+    {
+      for (const int n_quads : {n * quads_per_cell / 2, n * quads_per_cell})
+        upsample(n_quads);
+    });
 }
 } // namespace homespun::verification

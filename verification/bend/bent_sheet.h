@@ -52,15 +52,13 @@ struct BendingError
 
 BendingError mean_of(const BentState &difference);
 
-/// A point in a triangle of coarse_sheet().
-struct CoarsePoint
-{
-  int triangle;
-  Eigen::Vector3d barycentric;
-};
+/// The coarse mesh that flat triangles have, two per cell.
+meshes::TriangleMesh coarse_mesh(const meshes::Sheet &sheet);
 
-/// @param fraction on the sheet @param n quads along a side
-CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, int n);
+/// Flat triangles at the vertices of a sheet.
+/// @param corners positions of the vertices of coarse_mesh() (n,3)
+/// @return with normals of twice the length of the triangles' areas
+BentState flat_triangles(const meshes::Sheet &sheet, const Eigen::MatrixX3d &corners);
 
 /// Quads of the homogenized sheet along a side of a cell, even: about 80 along one of the sheet,
 /// since its clamps and corners need as many whatever the number of cells.

@@ -21,7 +21,8 @@ BendRow row_of(const std::string &method, const double position, const double no
   row.reference  = "linear";
   row.method     = method;
   row.bending    = 0.1;
-  row.curvature  = 10.; // the cell's side is 1 cm
+  row.side       = 0.01;
+  row.curvature  = 8.; // at large turns it is not that of the load
   row.mean       = position * 10. * 1e-4;
   row.bar        = 0.1 * row.mean;
   row.normal     = normal * 10. * 1e-2;
@@ -57,6 +58,23 @@ TEST(exact_bend_verdicts, are_decided_by_both_bars_against_the_better_base)
   EXPECT_EQ(worse.at("localized p").outcome, Outcome::fail);
   EXPECT_EQ(worse.at("base p").outcome, Outcome::inconclusive);
   EXPECT_NE(worse.at("base p").limit.find("no terms of edges"), std::string::npos);
+}
+
+TEST(exact_bend_verdicts, a_sheet_that_wrinkles_later_than_a_wave_without_fluctuation_fails)
+{
+  WrinkleRow row;
+  row.cell             = "made";
+  row.cells_per_wave   = 4;
+  row.most_compression = 2.;
+  EXPECT_EQ(verdict_on_wrinkles(row).outcome, Outcome::inconclusive);
+  row.compression     = 2.1;
+  row.compression_bar = 0.2;
+  EXPECT_EQ(verdict_on_wrinkles(row).outcome, Outcome::pass);
+  row.compression_bar = 0.05;
+  EXPECT_EQ(verdict_on_wrinkles(row).outcome, Outcome::fail);
+  std::vector<OwedClaim> owed;
+  add_owed_of_wrinkles("made", {4, 6}, owed);
+  EXPECT_EQ(missing_claims(owed, {verdict_on_wrinkles(row)}).size(), 3u);
 }
 
 TEST(tripwire_bend_verdicts, without_a_bar_an_equilibrium_or_an_error_nothing_is_claimed)

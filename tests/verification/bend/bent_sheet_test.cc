@@ -98,9 +98,11 @@ TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_
                large   = distance_of_meshes(cell, load_of(load), 6);
     for (std::size_t m = 0; m < large.size(); ++m)
     {
-      EXPECT_LT(large[m]->position, carried[m]->position) << load << ' ' << bending_methods[m];
-      EXPECT_LT(large[m]->normal, carried[m]->normal) << load << ' ' << bending_methods[m];
-      EXPECT_GT(2. * large[m]->position, small[m]->position) << "nothing was measured";
+      // Of an error of order one the limit is twice as far as the finer mesh.
+      EXPECT_LT(2. * large[m]->position, carried[m]->position) << load << ' ' << bending_methods[m];
+      EXPECT_LT(2. * large[m]->normal, carried[m]->normal) << load << ' ' << bending_methods[m];
+      EXPECT_GT(large[m]->position, 1.5 * small[m]->position) << "a sheet of twice the side";
+      EXPECT_NEAR(large[m]->normal / small[m]->normal, 1., 0.5) << load;
     }
   }
 }

@@ -15,6 +15,7 @@ class Bend(InFolder):
         output = self.folder / "out"
         result = run("bend", cell, "--cells", "4", *options, "--no-report", "--output", output)
         self.assertIn(result.returncode, statuses, result.stdout + result.stderr)
+        self.assertNotIn("nan", result.stdout)
         claims = json.loads((output / "verdicts.json").read_text())["verdicts"]
         return rows_of(output / "bend.csv"), [one for one in claims
                                               if one["id"].startswith("bent-closer")]
@@ -69,13 +70,12 @@ class Bend(InFolder):
         self.assertEqual({one["verdict"] for one in claims}, {"INCONCLUSIVE"})
         size = {row["method"]: float(row["error_mean_m"]) for row in rows}
         self.assertAlmostEqual(size["affine"] / size["localized"], 1., delta=1e-9)
-
         for row in rows_of(self.folder / "out/wrinkles.csv"):
             for what in ("wavelength_m", "compression_N_per_m"):
                 self.assertAlmostEqual(float(row[what]) / float(row["homogenized_" + what]), 1.,
                                        delta=2e-3, msg=row)
 
-    def test_wrinkles_of_d_h_err_by_order_two_in_cells_per_wave(self):
+    def test_wrinkles_of_d_h_err_by_more_than_order_one_in_cells_per_wave(self):
         self.bend(broken_cells_test.Cell().write(self.folder), "--loads", "roll")
         off = {}
         for row in rows_of(self.folder / "out/wrinkles.csv"):
@@ -85,9 +85,10 @@ class Bend(InFolder):
         for axis in "12":
             for what in ("wavelength_m", "compression_N_per_m"):
                 ratio = off[axis, what, "4"] / off[axis, what, "6"]
-                self.assertAlmostEqual(ratio, (6 / 4) ** 2, delta=1., msg=(axis, what, off))
-        # Across the halves a wave lives in the soft one.
-        self.assertLess(off["2", "compression_N_per_m", "4"], -0.03)
+                self.assertGreater(ratio, 1.2 * 6 / 4, (axis, what, off))
+        # The differential equation of stripes, here on 8 squares across.
+        self.assertAlmostEqual(off["2", "compression_N_per_m", "4"], -0.043, delta=0.003)
+        self.assertAlmostEqual(off["2", "wavelength_m", "4"], -0.027, delta=0.003)
 
     def test_of_a_cell_with_holes_the_terms_of_edges_are_missing_and_that_is_said(self):
         cell = broken_cells_test.Cell()

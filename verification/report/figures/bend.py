@@ -9,7 +9,7 @@ from matplotlib import pyplot, ticker
 
 from figures import style
 from figures.plot_data import DASHES
-from read.bend_results import LINEAR, NORMAL, POSITION, side_of
+from read.bend_results import LINEAR, NORMAL, POSITION, radius_of
 
 LONG_DASH = (0, (8, 2, 2, 2, 2, 2))
 # Name for readers, colour, dashes and mark of each method, in the order of what they have.
@@ -97,7 +97,7 @@ def dot_figure(sheets):
             "top", functions=(lambda x, s=size: s * x, lambda x, s=size: x / s)
         )
         above.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
-        above.set_xlabel(f"{label} [{unit}] at a radius of {100.0 / first['curvature_per_m']:.3g} cm")
+        above.set_xlabel(f"{label} [{unit}] at a radius of {100.0 * radius_of(first):.3g} cm")
     grid[0].set_yticks(range(len(sheets)), [bent.load for bent in sheets])
     grid[0].set_ylim(len(sheets) - 0.5, -0.5)
     legend(figure, *grid[0].get_legend_handles_labels())
@@ -173,7 +173,7 @@ def curve_figure(rows, least_radius):
         len(loads), 2, squeeze=False, sharex=True, sharey="col", layout="constrained",
         figsize=(9.0, 0.8 + 1.9 * len(loads)),
     )
-    limit = side_of(rows[0]) / least_radius if least_radius else math.inf
+    limit = rows[0]["cell_side_m"] / least_radius if least_radius else math.inf
     for line, load in zip(grid, loads):
         for axes, (what, label, of_size, *_) in zip(line, QUANTITIES):
             draw_curves(axes, rows, load, what)

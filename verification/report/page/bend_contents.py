@@ -12,14 +12,15 @@ from figures.style import number_with_bar, seconds, three
 from page.tables import length, length_with_bar
 from page.words import listed
 from page.wrinkle_contents import wrinkle_rows, wrinkle_sentences
-from read.bend_results import LINEAR, NORMAL, POSITION, side_of
+from read.bend_results import LINEAR, NORMAL, POSITION, radius_of
 
 QUANTITIES = (POSITION, NORMAL)
 DEGREES = 180.0 / math.pi
 DOTS = Markup(
     "A sheet of <code>{cell}</code>, {cells} × {cells} cells, under each load: mean error of its"
     " vertices against {reference}, with error bars (below the size of the mark where none is seen)."
-    " k is the curvature of the homogenized sheet, root mean square, and ε the side of the cell."
+    " k is the curvature of the homogenized sheet, root mean square, that the load makes in linear"
+    " theory, and ε the side of the cell."
     " Names in bend.csv, from top to bottom: {methods}."
 )
 CURVES = Markup(
@@ -36,8 +37,8 @@ def with_bar(what, row):
     return f"{number_with_bar(DEGREES * value, DEGREES * bar)}°"
 
 
-def radius_of(row):
-    return f"{100.0 / row['curvature_per_m']:.3g} cm"
+def radius_words(row):
+    return f"{100.0 * radius_of(row):.3g} cm"
 
 
 def span(pairs, text):
@@ -115,10 +116,11 @@ def gains_nothing(sheets, what):
 def first_sentence(sheets):
     """Where positions gain nothing from the deflection of the cell that; else what all terms leave."""
     row = next(iter(sheets[0].rows.values()))
-    against = "linear theory" if row["reference"] == LINEAR else f"large turns, {row['reference']}"
+    radius = f"a radius of {radius_words(row)} ({1.0 / row['curvature_times_cell']:.3g} cell sides"
     bent = (
-        f"Bent to a radius of {radius_of(row)} ({1.0 / row['curvature_times_cell']:.3g} cell sides,"
-        f" {against})"
+        f"Bent to {radius}, linear theory)"
+        if row["reference"] == LINEAR
+        else f"At large turns ({row['reference']}), under loads that in linear theory bend to {radius})"
     )
     if nothing := gains_nothing(sheets, POSITION):
         of = by_state(gains_of(sheets, POSITION)[1])
@@ -220,8 +222,9 @@ def beyond_linear(run, cell, sheets):
                 grown[bent.load] = what.relative(row) / what.relative(here)
         if grown:
             sentences.append(
-                f"At a radius of {1.0 / tightest:.3g} cell sides {what.name} errors, over their"
-                f" curvature, are {span(list(grown.items()), lambda load, its=grown: three(its[load]))}"
+                f"Under loads that in linear theory bend to a radius of {1.0 / tightest:.3g} cell sides,"
+                f" {what.name} errors over the load are"
+                f" {span(list(grown.items()), lambda load, its=grown: three(its[load]))}"
                 f" times those at {1.0 / shown['curvature_times_cell']:.3g} cell sides."
             )
     return sentences
@@ -293,7 +296,7 @@ def error_groups(sheets):
 def sizes_of(sheets):
     first = next(iter(sheets[0].rows.values()))
     return (
-        f"At a radius of {radius_of(first)}, k ε² is {length(POSITION.size(first))} and k ε"
+        f"At a radius of {radius_words(first)}, k ε² is {length(POSITION.size(first))} and k ε"
         f" {three(DEGREES * NORMAL.size(first))}°."
     )
 

@@ -22,14 +22,14 @@ class Quantity:
 
     name: str
     columns: str
-    power: int  # of the cell side in the size of its fluctuation, curvature x side^power
+    power: int  # of the cell side in the size of its fluctuation, k x side^power
 
     def of(self, row, what="mean"):
         return row[self.columns.format(what)]
 
     def size(self, row):
-        """Of the fluctuation [m, rad]."""
-        return row["curvature_per_m"] * side_of(row) ** self.power
+        """Of the fluctuation [m, rad], with k the curvature that the load makes in linear theory."""
+        return row["curvature_times_cell"] * row["cell_side_m"] ** (self.power - 1)
 
     def relative(self, row, what="mean"):
         return self.of(row, what) / self.size(row)
@@ -39,9 +39,9 @@ POSITION = Quantity("position", "error_{}_m", 2)
 NORMAL = Quantity("normal", "normal_error_{}_rad", 1)
 
 
-def side_of(row):
-    """Side of the cell [m]."""
-    return row["curvature_times_cell"] / row["curvature_per_m"]
+def radius_of(row):
+    """That the load bends to in linear theory [m]."""
+    return row["cell_side_m"] / row["curvature_times_cell"]
 
 
 @dataclass
