@@ -16,12 +16,12 @@ using meshes::at;
 
 namespace
 {
-/// The least compression by the parabola through three wavenumbers, 2 % apart: the same on two
-/// meshes, so that their distance is one of meshes.
+/// The least compression by the parabola through three wavenumbers so near to it that what the
+/// parabola misses, the square of their distance, is no more than round-off leaves.
 WrinkleOnset parabola(const PlateWaves &waves, const Eigen::Vector2d &direction,
                       const WrinkleOnset &near, const double foundation)
 {
-  const double step = 0.02 * near.wavenumber;
+  const double step = 2e-4 * near.wavenumber;
   const auto value  = [&](const double wavenumber)
   { return waves.compression(wavenumber * direction, foundation); };
   const double left = value(near.wavenumber - step), middle = value(near.wavenumber),
@@ -49,8 +49,8 @@ void resolve(const PlateWaves &drawn, const PlateWaves &finer, const Eigen::Vect
   const WrinkleOnset onset = drawn.onset(direction, turn / row.homogenized_wavelength, foundation),
                      here  = parabola(drawn, direction, onset, foundation),
                      there = parabola(finer, direction, onset, foundation);
-  row.wavelength           = turn / onset.wavenumber;
-  row.compression          = onset.compression;
+  row.wavelength           = turn / here.wavenumber;
+  row.compression          = here.compression;
   row.wavelength_bar =
     safety_unconfirmed * std::abs(turn / here.wavenumber - turn / there.wavenumber);
   row.compression_bar = safety_unconfirmed * std::abs(here.compression - there.compression);
