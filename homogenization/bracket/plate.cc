@@ -24,13 +24,6 @@ std::pair<int, Eigen::Vector3d> in_piece(const Eigen::Vector3d &barycentric)
   return {piece, {barycentric(piece) - least, barycentric((piece + 1) % 3) - least, 3. * least}};
 }
 
-double area_of(const PlateTriangle &triangle)
-{
-  const Eigen::Vector2d a = triangle.corners[1] - triangle.corners[0],
-                        b = triangle.corners[2] - triangle.corners[0];
-  return 0.5 * (a(0) * b(1) - a(1) * b(0));
-}
-
 Eigen::Matrix<double, 3, 12> curvatures_of(const Eigen::Matrix<double, 3, 12> &second_derivatives)
 {
   Eigen::Matrix<double, 3, 12> kappa = second_derivatives;
@@ -66,6 +59,13 @@ std::array<int, 12> ThinPlate::dofs_of(const int triangle) const
     dofs[at(9 + k)] = dof_of_side(its.sides[at(k)]);
   }
   return dofs;
+}
+
+double ThinPlate::area(const int triangle) const
+{
+  const auto &corners     = mesh.triangles[at(triangle)].corners;
+  const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
+  return 0.5 * (a(0) * b(1) - a(1) * b(0));
 }
 
 CloughTocher ThinPlate::element(const int triangle) const
@@ -113,13 +113,12 @@ Eigen::VectorXd ThinPlate::pressure() const
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
   {
     const CloughTocher its = element(t);
-    const double area      = area_of(mesh.triangles[at(t)]);
     const auto dofs        = dofs_of(t);
     for (const auto &[point, part] : points)
     {
       const auto rows = its.value_and_gradient(point.piece, point.in_piece);
       for (int k = 0; k < 12; ++k)
-        load(dofs[at(k)]) += area * part * rows(0, k);
+        load(dofs[at(k)]) += area(t) * part * rows(0, k);
     }
   }
   return load;
@@ -133,13 +132,25 @@ Eigen::MatrixXd ThinPlate::of_moments(const std::vector<Eigen::MatrixXd> &moment
     const Eigen::Matrix<double, 27, 12> kappa = curvatures(t);
     Eigen::Matrix<double, 3, 12> integral     = Eigen::Matrix<double, 3, 12>::Zero();
     for (int q = 0; q < n_field_points; ++q)
-      integral += area_of(mesh.triangles[at(t)]) / n_field_points * kappa.middleRows<3>(3 * q);
+      integral += area(t) / n_field_points * kappa.middleRows<3>(3 * q);
     const auto dofs              = dofs_of(t);
     const Eigen::MatrixXd forces = integral.transpose() * moments_of_triangle[at(t)];
     for (int k = 0; k < 12; ++k)
       loads.row(dofs[at(k)]) += forces.row(k);
   }
   return loads;
+}
+
+Eigen::Matrix<double, 12, 12> ThinPlate::stiffness(const int triangle) const
+{
+  const Eigen::Matrix<double, 27, 12> kappa = curvatures(triangle);
+  const Eigen::Matrix3d &D =
+    bending_stiffness_of_material[at(mesh.triangles[at(triangle)].material)];
+  Eigen::Matrix<double, 12, 12> of_shapes = Eigen::Matrix<double, 12, 12>::Zero();
+  for (int q = 0; q < n_field_points; ++q)
+    of_shapes += area(triangle) / n_field_points * kappa.middleRows<3>(3 * q).transpose() * D *
+                 kappa.middleRows<3>(3 * q);
+  return of_shapes;
 }
 
 /// The stiffness of the unknowns, lower triangle; what is held goes to the right.
@@ -151,14 +162,8 @@ Eigen::SparseMatrix<double> ThinPlate::reduced(const std::vector<int> &unknown, 
   entries.reserve(78 * mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
   {
-    const PlateTriangle &its                  = mesh.triangles[at(t)];
-    const Eigen::Matrix<double, 27, 12> kappa = curvatures(t);
-    const Eigen::Matrix3d &D                  = bending_stiffness_of_material[at(its.material)];
-    Eigen::Matrix<double, 12, 12> stiffness   = Eigen::Matrix<double, 12, 12>::Zero();
-    for (int q = 0; q < n_field_points; ++q)
-      stiffness += area_of(its) / n_field_points * kappa.middleRows<3>(3 * q).transpose() * D *
-                   kappa.middleRows<3>(3 * q);
-    const auto dofs = dofs_of(t);
+    const Eigen::Matrix<double, 12, 12> of_triangle = stiffness(t);
+    const auto dofs                                 = dofs_of(t);
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j)
       {
@@ -166,9 +171,9 @@ Eigen::SparseMatrix<double> ThinPlate::reduced(const std::vector<int> &unknown, 
         if (row < 0)
           continue;
         if (column < 0)
-          right.row(row) -= stiffness(i, j) * held.row(dofs[at(j)]);
+          right.row(row) -= of_triangle(i, j) * held.row(dofs[at(j)]);
         else if (row >= column)
-          entries.emplace_back(row, column, stiffness(i, j));
+          entries.emplace_back(row, column, of_triangle(i, j));
       }
   }
   Eigen::SparseMatrix<double> matrix(n, n);
@@ -209,14 +214,21 @@ PlateCell solve_plate_cell(const TorusMesh &mesh,
   std::vector<Eigen::MatrixXd> moments;
   PlateCell cell;
   cell.stiffness.setZero();
-  for (const PlateTriangle &triangle : plate.mesh.triangles)
+  for (int t = 0; t < static_cast<int>(plate.mesh.triangles.size()); ++t)
   {
-    const Eigen::Matrix3d &D = bending_stiffness_of_material[at(triangle.material)];
+    const Eigen::Matrix3d &D =
+      bending_stiffness_of_material[at(plate.mesh.triangles[at(t)].material)];
     moments.emplace_back(-D);
-    cell.stiffness += area_of(triangle) * D;
+    cell.stiffness += plate.area(t) * D;
   }
   const Eigen::MatrixXd loads = plate.of_moments(moments);
   cell.deflection             = plate.solve(loads, {{3 * mesh.anchor, 0.}});
+  const Eigen::VectorXd areas = plate.pressure();
+  const Eigen::RowVector3d mean =
+    areas.transpose() * cell.deflection /
+    areas.head(3 * mesh.n_vertices)(Eigen::seqN(0, mesh.n_vertices, 3)).sum();
+  for (int v = 0; v < mesh.n_vertices; ++v)
+    cell.deflection.row(3 * v) -= mean;
   // The minimum is the energy without phi, less that of phi, which is ½ loads.phi.
   const Eigen::Matrix3d gained = loads.transpose() * cell.deflection;
   cell.stiffness = (cell.stiffness - 0.5 * (gained + gained.transpose())) / mesh.lattice.area();

@@ -46,6 +46,15 @@ public:
   Values values(int triangle, const Eigen::Vector3d &barycentric,
                 const Eigen::VectorXd &deflection) const;
 
+  double area(int triangle) const; ///< [m^2]
+
+  /// kappa of the shapes at the field points of a triangle (equilibrated_stress.h), where products
+  /// of two of them are integrated with the weight area/9.
+  Eigen::Matrix<double, 27, 12> curvatures(int triangle) const;
+
+  /// integral kappa.D.kappa of the shapes of a triangle.
+  Eigen::Matrix<double, 12, 12> stiffness(int triangle) const;
+
   /// integral v, of a pressure of 1 [m^2 per m of v].
   Eigen::VectorXd pressure() const;
 
@@ -64,15 +73,14 @@ private:
   CloughTocher element(int triangle) const;
   Eigen::SparseMatrix<double> reduced(const std::vector<int> &unknown, int n,
                                       const Eigen::MatrixXd &held, Eigen::MatrixXd &right) const;
-  /// kappa of the shapes at the points where products of two of them are integrated, weight area/9.
-  Eigen::Matrix<double, 27, 12> curvatures(int triangle) const;
 };
 
 /// How a cell bends: min over periodic phi of 1/|Y| integral (K + kappa(phi)).D.(K + kappa(phi)).
 struct PlateCell
 {
-  Eigen::Matrix3d stiffness;  ///< D^H [N m]
-  Eigen::MatrixXd deflection; ///< phi under K11, K22, 2 K12 (n_dofs,3), as a ThinPlate has it
+  Eigen::Matrix3d stiffness; ///< D^H [N m]
+  /// phi under K11, K22, 2 K12 (n_dofs,3), as a ThinPlate has it, of mean zero.
+  Eigen::MatrixXd deflection;
 };
 
 /// Solves the cell problem; rims of holes are free.

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <map>
 #include <sstream>
-#include <utility>
 
 namespace homespun::homogenization
 {
@@ -84,17 +83,11 @@ void require_parallelogram(const UnitCell &cell, const meshes::Lattice &lattice,
 } // namespace
 
 CellElements::CellElements(const UnitCell &cell, const unsigned int order)
-    : CellElements(cell, order, cell.stiffness_of_phase())
-{
-}
-
-CellElements::CellElements(const UnitCell &cell, const unsigned int order,
-                           std::vector<Eigen::Matrix3d> stiffness_of_phase)
     : cell(cell)
     , torus(glued(cell.mesh, cell.lattice))
     , class_of(torus.vertex_of_original)
     , n_classes(torus.n_vertices + (order == 2 ? torus.n_edges() : 0))
-    , stiffness_of_phase(std::move(stiffness_of_phase))
+    , stiffness_of_phase(cell.stiffness_of_phase())
     , origin(cell.mesh.vertices.row(meshes::anchor_vertex(cell.mesh, cell.lattice)))
 {
   require_parallelogram(cell, cell.lattice, origin);

@@ -30,11 +30,6 @@ public:
   ///   a sheet is a lattice line
   CellElements(const UnitCell &cell, unsigned int order);
 
-  /// The same of other stiffnesses than those of the cell's membrane.
-  /// @param stiffness_of_phase (3,3) each
-  CellElements(const UnitCell &cell, unsigned int order,
-               std::vector<Eigen::Matrix3d> stiffness_of_phase);
-
   /// Points of quadrature of a triangle.
   std::vector<ElementPoint> points_of(int triangle) const;
 

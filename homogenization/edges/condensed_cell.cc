@@ -2,20 +2,34 @@
 #include "homogenization/edges/condensed_cell.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
-/// Stiffness of a row of 2^n cells, by joining a row to itself n times.
-SideStiffness row_of_cells(SideStiffness row, const int n)
+/// Stiffness of a row of cells, by joining a row to itself until fields that shrink by a thousandth
+/// per cell have gone, or the row is so slender that a rigid motion of one end feels nothing but
+/// rounding of the other.
+SideStiffness long_row_of_cells(SideStiffness row, const Eigen::MatrixXd &rigid)
 {
-  for (int k = 0; k < n; ++k)
+  constexpr int n_doublings = 12;
+  const auto is_slender     = [&]()
+  {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> of_rigid(rigid.transpose() * row.first *
+                                                                  rigid);
+    return of_rigid.eigenvalues()(0) < 1e-11 * row.first.norm();
+  };
+  for (int k = 0; k < n_doublings && !is_slender(); ++k)
   {
     const Eigen::LLT<Eigen::MatrixXd> joint(row.first + row.second);
     if (joint.info() != Eigen::Success)
@@ -27,6 +41,13 @@ SideStiffness row_of_cells(SideStiffness row, const int n)
     row.across = (-row.across * forth).eval();
   }
   return row;
+}
+
+/// A basis of what the columns span.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd &columns)
+{
+  return columns.householderQr().householderQ() *
+         Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
 }
 
 /// The largest |eigenvalue|, by |A^2m| / |A^m| = it^m for large m.
@@ -49,10 +70,10 @@ double spectral_radius(Eigen::MatrixXd power)
 }
 } // namespace
 
-Decay decay_of(const SideStiffness &sides)
+Decay decay_of(const CondensedCell &cell)
 {
-  constexpr int n_doublings  = 12; // fields that shrink by a thousandth per cell have gone
-  const SideStiffness row    = row_of_cells(sides, n_doublings);
+  const SideStiffness &sides = cell.stiffness;
+  const SideStiffness row    = long_row_of_cells(sides, cell.rigid);
   const Eigen::MatrixXd back = sides.across.transpose();
   const Eigen::MatrixXd half_strip =
     row.first - row.across * row.second.llt().solve(row.across.transpose());
@@ -61,11 +82,11 @@ Decay decay_of(const SideStiffness &sides)
   decay.residual =
     (sides.across * step * step + (sides.first + sides.second) * step + back).norm() /
     sides.first.norm();
-  Eigen::MatrixXd translations = step; // far away nothing else is left
-  for (int k = 0; k < n_doublings; ++k)
-    translations = (translations * translations).eval();
-  const Eigen::MatrixXd decaying = step - translations;
-  constexpr double round_off     = 1e-13;
+  // Rigid motions go over into rigid motions: on what is left of the others X has all |l| < 1.
+  const Eigen::MatrixXd &q = cell.rigid;
+  Eigen::MatrixXd decaying = step - q * (q.transpose() * step);
+  decaying -= (decaying * q * q.transpose()).eval();
+  constexpr double round_off = 1e-13;
   decay.factor = decaying.norm() < round_off * step.norm() ? 0. : spectral_radius(decaying);
   constexpr double solved_to = 1e-6;
   if (!(decay.residual < solved_to) || !(decay.factor < 1. - 1e-3))
@@ -76,64 +97,82 @@ Decay decay_of(const SideStiffness &sides)
   return decay;
 }
 
-CondensedCell::CondensedCell(const CellElements &elements, const int axis)
+CondensedCell::CondensedCell(const CellElements &elements, const int axis, const StripElements &of)
     : elements(elements)
     , axis(axis)
+    , dofs_of_shape(of.dofs_of_shape)
 {
-  number_nodes();
+  number_dofs();
   std::vector<Eigen::Triplet<double>> entries;
   for (int t = 0; t < elements.n_triangles(); ++t)
   {
-    Eigen::MatrixXd matrix =
-      Eigen::MatrixXd::Zero(2 * elements.n_shapes(), 2 * elements.n_shapes());
-    for (const ElementPoint &point : elements.points_of(t))
-      matrix += point.weight * point.strains.transpose() * elements.stiffness_of(t) * point.strains;
+    const Eigen::MatrixXd matrix = of.stiffness(t);
+    const std::vector<int> dofs  = dofs_of(t);
     for (int i = 0; i < matrix.rows(); ++i)
       for (int j = 0; j < matrix.cols(); ++j)
-        entries.emplace_back(2 * strip_node(t, i / 2) + i % 2, 2 * strip_node(t, j / 2) + j % 2,
-                             matrix(i, j));
+        entries.emplace_back(dofs[at(i)], dofs[at(j)], matrix(i, j));
   }
   condense(entries);
+  rigid = orthonormal(of.rigid(*this));
+}
+
+std::vector<int> CondensedCell::dofs_of(const int triangle) const
+{
+  std::vector<int> dofs;
+  for (int k = 0; k < elements.n_shapes(); ++k)
+    for (int i = 0; i < dofs_of_shape[at(k)]; ++i)
+      dofs.push_back(first_dof(elements.nodes(triangle, k)) + i);
+  return dofs;
 }
 
 /// Two ends of lattice coordinate `axis`: what lies near 1 is the second side.
-void CondensedCell::number_nodes()
+void CondensedCell::number_dofs()
 {
+  std::vector<int> dofs_of_class(at(elements.n_classes), 0);
+  for (int t = 0; t < elements.n_triangles(); ++t)
+    for (int k = 0; k < elements.n_shapes(); ++k)
+      dofs_of_class[at(elements.class_of[at(elements.nodes(t, k))])] = dofs_of_shape[at(k)];
+  std::vector<int> first_of_class;
+  for (const int n : dofs_of_class)
+  {
+    first_of_class.push_back(n_glued);
+    n_glued += n;
+  }
   const double slack = 2. * meshes::image_tolerance;
   const auto n_nodes = static_cast<std::size_t>(elements.points.rows());
   std::vector<bool> is_second(n_nodes, false);
-  std::vector<int> on_side(static_cast<std::size_t>(elements.n_classes), -1); // of each class
+  std::vector<int> on_side(at(elements.n_classes), -1); // the first DoF of each class
   for (std::size_t node = 0; node < n_nodes; ++node)
   {
     const double f  = elements.fraction(elements.points.row(static_cast<Eigen::Index>(node)))(axis);
     is_second[node] = f >= 1. - slack;
-    int &place      = on_side[static_cast<std::size_t>(elements.class_of[node])];
-    if ((is_second[node] || f <= slack) && place < 0)
-    {
-      place = n_side();
-      side.push_back(elements.class_of[node]);
-    }
+    const auto of_class = at(elements.class_of[node]);
+    if ((!is_second[node] && f > slack) || on_side[of_class] >= 0)
+      continue;
+    on_side[of_class] = n_side_dofs();
+    for (int i = 0; i < dofs_of_class[of_class]; ++i)
+      side.push_back(first_of_class[of_class] + i);
   }
-  strip_node_of.resize(n_nodes);
   for (std::size_t node = 0; node < n_nodes; ++node)
   {
-    const int of_class = elements.class_of[node];
-    strip_node_of[node] =
-      is_second[node] ? elements.n_classes + on_side[static_cast<std::size_t>(of_class)] : of_class;
+    const auto of_class = at(elements.class_of[node]);
+    first_dof_of.push_back(is_second[node] ? n_glued + on_side[of_class]
+                                           : first_of_class[of_class]);
   }
-  for (int node = 0; node < n_strip_nodes(); ++node)
+  place.assign(at(n_dofs()), 0);
+  for (int k = 0; k < n_side_dofs(); ++k)
   {
-    const int first = node < elements.n_classes ? on_side[static_cast<std::size_t>(node)] : -1;
-    const int outer = node < elements.n_classes ? first : n_side() + node - elements.n_classes;
-    for (int c = 0; c < 2; ++c)
-      place.push_back(outer >= 0 ? -1 - (2 * outer + c) : 2 * n_inner + c);
-    n_inner += outer < 0 ? 1 : 0;
+    place[at(side[at(k)])] = -1 - k;
+    place[at(n_glued + k)] = -1 - n_side_dofs() - k;
   }
+  for (int &row : place)
+    if (row >= 0)
+      row = n_inner++;
 }
 
 void CondensedCell::condense(const std::vector<Eigen::Triplet<double>> &entries)
 {
-  const int n_outer     = 4 * n_side();
+  const int n_outer     = 2 * n_side_dofs();
   Eigen::MatrixXd outer = Eigen::MatrixXd::Zero(n_outer, n_outer);
   std::vector<Eigen::Triplet<double>> within, between;
   for (const Eigen::Triplet<double> &entry : entries)
@@ -147,11 +186,11 @@ void CondensedCell::condense(const std::vector<Eigen::Triplet<double>> &entries)
     else if (i >= 0 && i >= j)
       within.emplace_back(i, j, entry.value());
   }
-  coupling.resize(2 * n_inner, n_outer);
+  coupling.resize(n_inner, n_outer);
   coupling.setFromTriplets(between.begin(), between.end());
   if (n_inner > 0)
   {
-    Eigen::SparseMatrix<double> lower(2 * n_inner, 2 * n_inner);
+    Eigen::SparseMatrix<double> lower(n_inner, n_inner);
     lower.setFromTriplets(within.begin(), within.end());
     factor = std::make_unique<CholeskyFactor>(lower, elements.cell.file + ": half strip");
     constexpr int at_once = 64; // columns, so that memory stays small
@@ -176,7 +215,7 @@ Eigen::MatrixXd CondensedCell::expanded(const Eigen::MatrixXd &first,
   Eigen::MatrixXd inner;
   if (factor)
     inner = -factor->solve(Eigen::MatrixXd(coupling * outer));
-  Eigen::MatrixXd all(2 * n_strip_nodes(), first.cols());
+  Eigen::MatrixXd all(n_dofs(), first.cols());
   for (int dof = 0; dof < all.rows(); ++dof)
   {
     const int row = place[static_cast<std::size_t>(dof)];
@@ -190,7 +229,7 @@ Eigen::MatrixXd CondensedCell::expanded(const Eigen::MatrixXd &first,
 
 Eigen::VectorXd CondensedCell::condensed(const Eigen::VectorXd &functional) const
 {
-  Eigen::VectorXd inner(2 * n_inner), outer(4 * n_side());
+  Eigen::VectorXd inner(n_inner), outer(2 * n_side_dofs());
   for (int dof = 0; dof < functional.size(); ++dof)
   {
     const int row = place[static_cast<std::size_t>(dof)];

@@ -27,18 +27,15 @@ ClothStiffness homogenized_stiffness(const BendingCell &cell)
           {cell.solved.stiffness}};
 }
 
-/// A homogenized cloth at its vertices, with w3 = K_a phi_a of the cell or without.
-BentState upsampled(const BendingCell &cell, const meshes::Sheet &sheet, const ClothSheet &cloth,
-                    const bool with_fluctuation)
+/// A homogenized cloth at its vertices, what the cell adds along its normals.
+BentState upsampled(const MicroDeflection &of_cell, const Micro micro, const ClothSheet &cloth)
 {
   const ClothSurface surface = cloth.surface();
   BentState state(cloth.mesh.n_vertices(), 6);
   state << cloth.mesh.positions, surface.normals;
-  for (int v = 0; with_fluctuation && v < cloth.mesh.n_vertices(); ++v)
+  for (int v = 0; micro != Micro::none && v < cloth.mesh.n_vertices(); ++v)
   {
-    const Eigen::Vector3d w3 = cell.solved.deflection.middleRows<3>(
-                                 3 * cell.torus.vertex_of_original[at(sheet.cell_vertex(v))]) *
-                               surface.curvature.row(v).transpose();
+    const Eigen::Vector3d w3 = of_cell.deflection(micro, v, surface.curvature.row(v).transpose());
     const Eigen::RowVector3d normal = surface.normals.row(v),
                              t1     = surface.tangents[0].row(v) + w3(1) * normal,
                              t2     = surface.tangents[1].row(v) + w3(2) * normal;
@@ -92,6 +89,7 @@ BentCloth::BentCloth(const BendingCell &cell, const BendingLoad &load, const int
                   homogenized_stiffness(cell), load)
     , turned(homogenized)
     , cell(cell)
+    , of_cell(cell, load, sheet)
 {
 }
 
@@ -107,24 +105,24 @@ BentByTurns BentCloth::at(const double pressure)
       std::vector<const ClothSheet *> all = {&homogenized};
       if (cell.known.edges)
       {
-        // E = P^-1 M of the sheet that is not turned, as in linear theory; times by how much the
-        // turn has changed the moment of the clamp, since the lever arms have.
-        const Eigen::MatrixX3d moments = homogenized.moments();
-        Eigen::MatrixX3d strains(moments.rows(), 3);
-        strains << moments.col(1), moments.col(0), -2. * moments.col(2);
-        turned.mesh.positions = homogenized.mesh.positions;
+        // K of the sheet that is not turned, as in linear theory; times by how much the turn has
+        // changed the moment of the clamp, since the lever arms have.
+        const Eigen::MatrixX3d curvatures = homogenized.curvature_of_triangles();
+        turned.mesh.positions             = homogenized.mesh.positions;
         for (const ClothSheet *const last : {&homogenized, &turned})
         {
           const double change = last->moment_of_clamps() / homogenized.moment_of_clamps();
-          turned.turn_clamps(*cell.known.edges, change * strains);
+          turned.turn_clamps(*cell.known.edges, change * curvatures);
           bent.n_tangents += turned.bend(pressure);
         }
         all.push_back(&turned);
       }
       for (std::size_t k = 0; k < all.size(); ++k)
-        for (const std::size_t with_fluctuation : {0, 1})
-          states.emplace_back(2 * k + with_fluctuation,
-                              upsampled(cell, sheet, *all[k], with_fluctuation == 1));
+      {
+        states.emplace_back(2 * k, upsampled(of_cell, Micro::none, *all[k]));
+        states.emplace_back(2 * k + 1,
+                            upsampled(of_cell, k == 0 ? Micro::cell : Micro::edges, *all[k]));
+      }
       states.emplace_back(bending_methods.size() - 1, flat(sheet, homogenized));
     });
   BentState reference;

@@ -4,15 +4,16 @@
 // that nothing differs but the material.
 //
 // At large turns clamps alone have a term of edges: the homogenized sheet's are turned by
-// eps T_a E_a, E = P^-1 M. Read again on the turned sheet, M swings where a clamp ends: it is that
-// of the sheet whose clamps are not turned, times by how much the turn changes the clamp's moment.
-// Free edges have none. Of the loads those of one clamped edge are known: clamps that keep their
+// b_a K_a. Read again on the turned sheet, K swings where a clamp ends: it is that of the sheet
+// whose clamps are not turned, times by how much the turn changes the clamp's moment. Free edges
+// have layers and no beam. Of the loads those of one clamped edge are known: clamps that keep their
 // distance stretch a sheet once it deflects by its thickness, and a moment on an edge is no dead
 // load.
 #pragma once
 
 #include "verification/bend/bent_sheet.h"
 #include "verification/bend/cloth_sheet.h"
+#include "verification/bend/micro_deflection.h"
 
 #include <string>
 
@@ -51,5 +52,6 @@ public:
 
 private:
   const BendingCell &cell;
+  const MicroDeflection of_cell;
 };
 } // namespace homespun::verification

@@ -2,6 +2,7 @@
 #include "verification/bend/bent_sheet.h"
 
 #include "meshes/plain/index.h"
+#include "verification/bend/micro_deflection.h"
 #include "verification/record/timing.h"
 
 #include <Eigen/Geometry>
@@ -64,21 +65,16 @@ struct MacroPlate
   const PlateSheet plate;
 };
 
-/// A homogenized deflection on the fine vertices, with w3 of the cell or without.
-BentState upsampled(const BendingCell &cell, const MacroPlate &macro, const Eigen::VectorXd &w,
-                    const bool with_fluctuation)
+/// A homogenized deflection on the fine vertices.
+BentState upsampled(const MicroDeflection &of_cell, const Micro micro, const MacroPlate &macro,
+                    const Eigen::VectorXd &w)
 {
   const meshes::Sheet &sheet = macro.sheet;
   BentState state(sheet.mesh.n_vertices(), 6);
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
   {
     const ThinPlate::Values values = macro.values(sheet.fraction(sheet.mesh.vertices.row(v)), w);
-    Eigen::Vector3d here           = values.head<3>();
-    if (with_fluctuation)
-      here += cell.solved.deflection.middleRows<3>(
-                3 * cell.torus.vertex_of_original[at(sheet.cell_vertex(v))]) *
-              values.tail<3>();
-    set_state(state, v, here);
+    set_state(state, v, values.head<3>() + of_cell.deflection(micro, v, values.tail<3>()));
   }
   return state;
 }
@@ -97,20 +93,9 @@ BentState flat(const MacroPlate &macro, const Eigen::VectorXd &w)
 }
 } // namespace
 
-BendingCell::BendingCell(const homogenization::UnitCell &cell)
-    : cell(cell)
-    , bending_stiffness_of_phase(cell.bending_stiffness_of_phase())
-    , torus(homogenization::glued(cell.mesh, cell.lattice))
-    , solved(homogenization::solve_plate_cell(torus, bending_stiffness_of_phase))
-    , known(known_edges_of_plate(cell))
+bool has_edges(const std::string &method)
 {
-}
-
-bool BendingCell::is_of_one_material() const
-{
-  // The slopes across the sides of the mesh.
-  return solved.deflection.bottomRows(torus.n_edges()).cwiseAbs().maxCoeff() <
-         1e-9 * std::sqrt(cell.lattice.area());
+  return method == "affine+edges" || method == "full";
 }
 
 Eigen::VectorXd position_errors(const BentState &difference)
@@ -170,7 +155,8 @@ BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int
     });
   // A pressure acts on the material, not on holes.
   const double covered = meshes::signed_areas(cell.cell.mesh).sum() / cell.cell.lattice.area();
-  const auto upsample  = [&](const int n_quads)
+  const MicroDeflection of_cell(cell, load, sheet);
+  const auto upsample = [&](const int n_quads)
   {
     const MacroPlate macro(cell, sheet, n_quads);
     n_macro_triangles               = 2 * n_quads * n_quads;
@@ -181,9 +167,11 @@ BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int
       ws.push_back(w0 + macro.plate.correction(load, *cell.known.edges, w0));
     std::vector<std::pair<std::size_t, BentState>> states;
     for (std::size_t k = 0; k < ws.size(); ++k)
-      for (const std::size_t with_fluctuation : {0, 1})
-        states.emplace_back(2 * k + with_fluctuation,
-                            upsampled(cell, macro, ws[k], with_fluctuation == 1));
+    {
+      states.emplace_back(2 * k, upsampled(of_cell, Micro::none, macro, ws[k]));
+      states.emplace_back(2 * k + 1,
+                          upsampled(of_cell, k == 0 ? Micro::cell : Micro::edges, macro, ws[k]));
+    }
     states.emplace_back(bending_methods.size() - 1, flat(macro, w0));
     for (const auto &[method, state] : states)
     {

@@ -4,37 +4,25 @@
 // the size of k eps², one of the normal that of k eps.
 #pragma once
 
-#include "homogenization/cell/unit_cell.h"
+#include "verification/bend/bending_cell.h"
 #include "verification/bend/plate_sheet.h"
-#include "verification/cell/cell_edges.h"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// The ways to up-sample a bent sheet: the homogenized deflection w0 alone, with w3 = K_a phi_a of
-/// the cell, with the terms of edges w1, with both; last w0 at the corners of two flat triangles
-/// per cell. The macro problem is the same of all.
+/// The ways to up-sample a bent sheet: the homogenized deflection w0 alone, with w3 = K_a w_a of
+/// the cell, with the terms of edges w1, with both and the layers at edges; last w0 at the corners
+/// of two flat triangles per cell. The macro problem is the same of all.
 inline constexpr std::array<const char *, 5> bending_methods = {"affine", "localized",
                                                                 "affine+edges", "full", "flat"};
 
-/// A cell as it bends: phi_a, D^H, and its edges or why they are not known.
-struct BendingCell
-{
-  explicit BendingCell(const homogenization::UnitCell &cell);
-
-  /// Whether its deflections are zero to round-off.
-  bool is_of_one_material() const;
-
-  const homogenization::UnitCell &cell;
-  std::vector<Eigen::Matrix3d> bending_stiffness_of_phase;
-  homogenization::TorusMesh torus;
-  homogenization::PlateCell solved;
-  KnownEdges known; ///< edges of its plate
-};
+/// Whether a method has terms of edges.
+bool has_edges(const std::string &method);
 
 /// At each vertex of a sheet the position [m] and the unit normal, or differences of them.
 using BentState = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;

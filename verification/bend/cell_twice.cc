@@ -62,12 +62,29 @@ OptionalErrors distance_of_errors(const meshes::Sheet &drawn,
   return distances;
 }
 
-OptionalErrors carried_bars(const OptionalErrors &distances, const double ratio)
+BentSheet::OfMethods<double> growth_in_linear_theory(const double ratio)
+{
+  BentSheet::OfMethods<double> growth;
+  for (std::size_t k = 0; k < growth.size(); ++k)
+    growth[k] = has_edges(bending_methods[k]) ? 1. : ratio;
+  return growth;
+}
+
+BentSheet::OfMethods<double> growth_at_large_turns(const double ratio)
+{
+  BentSheet::OfMethods<double> growth;
+  growth.fill(ratio);
+  return growth;
+}
+
+OptionalErrors carried_bars(const OptionalErrors &distances,
+                            const BentSheet::OfMethods<double> &growth)
 {
   OptionalErrors bars = distances;
-  for (auto &bar : bars)
-    if (bar)
-      *bar = {safety_unconfirmed * ratio * bar->position, safety_unconfirmed * bar->normal};
+  for (std::size_t k = 0; k < bars.size(); ++k)
+    if (bars[k])
+      *bars[k] = {safety_unconfirmed * growth[k] * bars[k]->position,
+                  safety_unconfirmed * bars[k]->normal};
   return bars;
 }
 } // namespace homespun::verification

@@ -31,9 +31,15 @@ OptionalErrors distance_of_errors(const meshes::Sheet &drawn,
                                   const meshes::Sheet &refined,
                                   const BentSheet::OfMethods<BentState> &on_refined);
 
-/// Bars from the distances on a small sheet: three times, because two meshes confirm no order
-/// (Roache 1994), and in position by the ratio of the sheets' sides: what a mesh misses of slip and
-/// beam of an edge turns the sheet, whose position moves by its side.
+/// By how much what meshes move of positions grows with the side of a sheet, method by method. Slip
+/// and beam of an edge turn the sheet, and what a mesh misses of them moves positions by the
+/// sheet's side; but in linear theory terms of edges miss the same on each mesh as the reference.
 /// @param ratio side of the sheet over that of the small one, at least 1
-OptionalErrors carried_bars(const OptionalErrors &distances, double ratio);
+BentSheet::OfMethods<double> growth_in_linear_theory(double ratio);
+BentSheet::OfMethods<double> growth_at_large_turns(double ratio);
+
+/// Bars from the distances on a small sheet: three times, because two meshes confirm no order
+/// (Roache 1994), and in position by a growth.
+OptionalErrors carried_bars(const OptionalErrors &distances,
+                            const BentSheet::OfMethods<double> &growth);
 } // namespace homespun::verification

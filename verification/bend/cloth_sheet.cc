@@ -74,7 +74,9 @@ std::vector<shell::ClampedEdge> ClothSheet::clamped_edges() const
   {
     Eigen::Vector3d normal(0., 0., std::cos(one.turn));
     normal.head<2>() = -std::sin(one.turn) * one.inwards;
-    edges.push_back({one.first, one.second, normal});
+    const Eigen::Vector3d along =
+      (mesh.positions.row(one.second) - mesh.positions.row(one.first)).transpose().normalized();
+    edges.push_back({one.first, one.second, (normal - normal.dot(along) * along).normalized()});
   }
   return edges;
 }
@@ -92,7 +94,8 @@ int ClothSheet::bend(const double pressure)
   return found.iterations;
 }
 
-void ClothSheet::turn_clamps(const meshes::CellEdges &edges, const Eigen::MatrixX3d &strains)
+void ClothSheet::turn_clamps(const homogenization::PlateEdges &edges,
+                             const Eigen::MatrixX3d &curvatures)
 {
   meshes::Points centres(mesh.n_triangles(), 2);
   for (int t = 0; t < mesh.n_triangles(); ++t)
@@ -104,9 +107,14 @@ void ClothSheet::turn_clamps(const meshes::CellEdges &edges, const Eigen::Matrix
   const double radius = 4. * std::sqrt(2. * areas.maxCoeff()); // about 25 triangles
   for (ClampSide &one : clamps)
   {
-    const Eigen::RowVector2d middle =
-      0.5 * (sheet.mesh.vertices.row(one.first) + sheet.mesh.vertices.row(one.second));
-    one.turn = edges.sides[at(one.edge)].tension.dot(value_at(middle, radius, centres, strains));
+    const homogenization::AffineDeflection &slip = edges.sides[at(one.edge)].slip;
+    const auto there                             = [&](const Eigen::RowVector2d &point)
+    { return value_at(point, radius, centres, curvatures); };
+    const Eigen::RowVector2d ends[2] = {sheet.mesh.vertices.row(one.first),
+                                        sheet.mesh.vertices.row(one.second)};
+    one.turn                         = slip.slope.dot(there(0.5 * (ends[0] + ends[1])));
+    mesh.positions(one.first, 2)     = slip.value.dot(there(ends[0]));
+    mesh.positions(one.second, 2)    = slip.value.dot(there(ends[1]));
   }
 }
 

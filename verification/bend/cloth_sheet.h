@@ -10,7 +10,6 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
-#include "meshes/plain/cell_edges.h"
 #include "meshes/plain/sheet.h"
 #include "shell/terms/edge_plates.h"
 #include "verification/bend/plate_sheet.h"
@@ -51,13 +50,13 @@ public:
   /// @throws NotConverged
   int bend(double pressure);
 
-  /// Turns the planes of its clamps to what the edges of a cell say, eps T_a E_a of
-  /// homogenization/edges/edge_layers.h.
-  /// @param E E_a at each triangle (m,3), of a homogenized cloth
-  void turn_clamps(const meshes::CellEdges &edges, const Eigen::MatrixX3d &strains);
+  /// Turns the planes of its clamps to what the edges of a cell say, b_a K_a of
+  /// homogenization/edges/plate_edges.h, and lifts them by c_a K_a.
+  /// @param curvatures K_a at each triangle (m,3), of a homogenized cloth
+  void turn_clamps(const homogenization::PlateEdges &edges, const Eigen::MatrixX3d &curvatures);
 
-  /// M = D κ of each triangle (m,3) [N].
-  Eigen::MatrixX3d moments() const;
+  /// κ of each triangle (m,3) [1/m].
+  Eigen::MatrixX3d curvature_of_triangles() const;
 
   /// Of its clamps on the sheet, about their edges [N m].
   double moment_of_clamps() const;
@@ -70,7 +69,7 @@ public:
   meshes::ClothMesh mesh;
 
 private:
-  Eigen::MatrixX3d curvature_of_triangles() const;
+  Eigen::MatrixX3d moments() const; ///< M = D κ of each triangle (m,3) [N]
 
   /// A side of a triangle at a clamp, whose plane is turned about it.
   struct ClampSide

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/bend/plate_sheet.h"
 
-#include "homogenization/bracket/bending_bracket.h"
 #include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/index.h"
 
@@ -131,15 +130,12 @@ Eigen::VectorXd PlateSheet::deflection(const BendingLoad &load, const double pre
   return plate.solve(forces, held(load, clamped_at));
 }
 
-Eigen::VectorXd PlateSheet::correction(const BendingLoad &load, const meshes::CellEdges &edges,
+Eigen::VectorXd PlateSheet::correction(const BendingLoad &load,
+                                       const homogenization::PlateEdges &edges,
                                        const Eigen::VectorXd &deflection) const
 {
-  const Eigen::Matrix3d &D = plate.bending_stiffness_of_material.front();
-  Eigen::Matrix3d inverse_exchange; // P^-1
-  inverse_exchange << 0., 1., 0., 1., 0., 0., 0., 0., -2.;
-  const Eigen::Matrix3d to_strain = inverse_exchange * D; // E = P^-1 D^H kappa
-  const auto strain_at            = [&](const int triangle, const Eigen::Vector3d &barycentric)
-  { return (to_strain * plate.values(triangle, barycentric, deflection).tail<3>()).eval(); };
+  const auto curvature_at = [&](const int triangle, const Eigen::Vector3d &barycentric)
+  { return Eigen::Vector3d(plate.values(triangle, barycentric, deflection).tail<3>()); };
 
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(plate.n_dofs());
   for (const EdgeSide &one : edge_sides)
@@ -148,21 +144,16 @@ Eigen::VectorXd PlateSheet::correction(const BendingLoad &load, const meshes::Ce
       if (load.is_clamped[at(one.edge)])
         continue;
       const Eigen::Vector3d point = on_side(one.rim, part);
-      const Eigen::Vector2d slip =
-        edges.sides[at(one.edge)].slip * strain_at(one.rim.triangle, point);
+      const Eigen::Vector3d moment =
+        edges.sides[at(one.edge)].moment * curvature_at(one.rim.triangle, point);
       const ThinPlate::Shapes shapes = plate.shapes(one.rim.triangle, point);
       const auto dofs                = plate.dofs_of(one.rim.triangle);
       for (int k = 0; k < 12; ++k)
-      {
-        const Eigen::Vector3d kappa = shapes.block<3, 1>(3, k);
-        const Eigen::Vector2d turn(0.5 * kappa(2) * one.along(0) + kappa(1) * one.along(1),
-                                   -kappa(0) * one.along(0) - 0.5 * kappa(2) * one.along(1));
-        forces(dofs[at(k)]) += weight * one.length * slip.dot(turn);
-      }
+        forces(dofs[at(k)]) -= weight * one.length * moment.dot(shapes.block<3, 1>(3, k));
     }
-  // M_abc d_b E_a, with the gradient of what is linear between the middles of the three pieces.
+  // −M_abc d_b K_a, with the gradient of what is linear between the middles of the three pieces.
   std::vector<Eigen::MatrixXd> moments;
-  const auto bulk_at = [&](const int t)
+  for (int t = 0; t < static_cast<int>(plate.mesh.triangles.size()); ++t)
   {
     const auto &corners = plate.mesh.triangles[at(t)].corners;
     Eigen::Matrix2d legs;
@@ -175,19 +166,20 @@ Eigen::VectorXd PlateSheet::correction(const BendingLoad &load, const meshes::Ce
     {
       Eigen::Vector3d middle = Eigen::Vector3d::Constant(4. / 9.);
       middle(k)              = 1. / 9.;
-      gradient -= 3. * strain_at(t, middle) * of_corners.row(k);
+      gradient -= 3. * curvature_at(t, middle) * of_corners.row(k);
     }
-    return Eigen::Vector3d(edges.bulk[0].transpose() * gradient.col(0) +
-                           edges.bulk[1].transpose() * gradient.col(1));
-  };
-  for (int t = 0; t < static_cast<int>(plate.mesh.triangles.size()); ++t)
-    moments.push_back(to_strain.transpose() * bulk_at(t));
+    moments.emplace_back(-edges.bulk[0].transpose() * gradient.col(0) -
+                         edges.bulk[1].transpose() * gradient.col(1));
+  }
   forces += plate.of_moments(moments);
   const auto clamped_at = [&](const EdgeSide &one, const double part) -> Clamped
   {
-    const double slope =
-      edges.sides[at(one.edge)].tension.dot(strain_at(one.rim.triangle, on_side(one.rim, part)));
-    return {0., slope * one.inwards};
+    const homogenization::AffineDeflection &slip = edges.sides[at(one.edge)].slip;
+    const auto there                             = [&](const double along)
+    { return curvature_at(one.rim.triangle, on_side(one.rim, along)); };
+    const double slope_along = slip.value.dot(there(1.) - there(0.)) / one.length;
+    return {slip.value.dot(there(part)),
+            slip.slope.dot(there(part)) * one.inwards + slope_along * one.along};
   };
   return plate.solve(forces, held(load, clamped_at));
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "homogenization/bracket/plate.h"
+#include "homogenization/edges/plate_edges.h"
 #include "meshes/plain/cell_edges.h"
 #include "meshes/plain/sheet.h"
 
@@ -51,10 +52,9 @@ public:
   /// @return (n_dofs), as a ThinPlate has them
   Eigen::VectorXd deflection(const BendingLoad &load, double pressure) const;
 
-  /// What edges add to a homogenized plate, w1 of homogenization/edges/edge_layers.h.
+  /// What edges add to a homogenized plate, w1 of homogenization/edges/plate_edges.h.
   /// @param deflection w0
-  /// @param edges of the cell's plate, edges_of_plate()
-  Eigen::VectorXd correction(const BendingLoad &load, const meshes::CellEdges &edges,
+  Eigen::VectorXd correction(const BendingLoad &load, const homogenization::PlateEdges &edges,
                              const Eigen::VectorXd &deflection) const;
 
   /// sqrt(mean of kappa11² + kappa22² + 2 kappa12²) [1/m], of three points of each triangle.

@@ -2,6 +2,7 @@
 #include "verification/cell/cell_edges.h"
 
 #include "homogenization/edges/edge_layers.h"
+#include "homogenization/edges/plate_edges.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/timing.h"
 
@@ -12,13 +13,12 @@ namespace homespun::verification
 {
 namespace
 {
-using EdgesOf = meshes::CellEdges(const homogenization::UnitCell &,
-                                  const homogenization::EdgeOptions &);
-
-KnownEdges known_by(EdgesOf &edges_of, const homogenization::UnitCell &cell,
-                    const unsigned int order)
+template <typename Edges>
+KnownBy<Edges> known_by(Edges (&edges_of)(const homogenization::UnitCell &,
+                                          const homogenization::EdgeOptions &),
+                        const homogenization::UnitCell &cell, const unsigned int order)
 {
-  KnownEdges known;
+  KnownBy<Edges> known;
   homogenization::EdgeOptions options;
   options.order = order;
   known.seconds = seconds_of(
@@ -46,7 +46,7 @@ KnownEdges known_edges(const homogenization::UnitCell &cell, const unsigned int 
   return known_by(homogenization::edges_of, cell, order);
 }
 
-KnownEdges known_edges_of_plate(const homogenization::UnitCell &cell)
+KnownPlateEdges known_edges_of_plate(const homogenization::UnitCell &cell)
 {
   return known_by(homogenization::edges_of_plate, cell, 2);
 }

@@ -8,21 +8,29 @@
 #include <optional>
 #include <string>
 
+namespace homespun::homogenization
+{
+struct PlateEdges;
+}
+
 namespace homespun::verification
 {
-struct KnownEdges
+template <typename Edges>
+struct KnownBy
 {
-  std::optional<meshes::CellEdges> edges;
+  std::optional<Edges> edges;
   std::string why_not; ///< a clause, where there are none
   double seconds = 0.;
 };
+using KnownEdges      = KnownBy<meshes::CellEdges>;
+using KnownPlateEdges = KnownBy<homogenization::PlateEdges>;
 
 /// Slip, tension, modes and bulk term of a cell, on the triangles as given; on one rank.
 /// @param order 1 or 2, that of its chi
 KnownEdges known_edges(const homogenization::UnitCell &cell, unsigned int order);
 
-/// Those of the cell's plate (homogenization/edges/edge_layers.h), by displacements of order 2.
-KnownEdges known_edges_of_plate(const homogenization::UnitCell &cell);
+/// Those of the cell's plate.
+KnownPlateEdges known_edges_of_plate(const homogenization::UnitCell &cell);
 
 /// known_edges() for a file that carries them in case somebody asks; none, with an estimate, where
 /// they would take longer than all else. Studies that need them make them whatever it takes.

@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 CELLS_PER_SIDE = 20
+CELLS_PER_SIDE_BENT = 10
 MAPPED = ("layered", "twill")  # whose stability map is shipped
 WEAVES = ("plain-weave", "satin", "twill")  # whose default law is yarn
 COMPARED = [
@@ -89,6 +90,7 @@ def main(homespun, sources, output, *names):
         for command, options in (
             ("strain", ["--cells", CELLS_PER_SIDE, "--references", law, "--methods", METHODS,
                         *COMPARED]),
+            ("bend", ["--cells", CELLS_PER_SIDE_BENT, "--no-report"]),
             ("homogenize", ["--quiet"]),
         ):
             folders.append(output / cell.stem / command)

@@ -4,8 +4,8 @@
 
     published.py OUTPUT DIR [DIR...]
 
-Of runs of `homespun strain` errors.csv, of `homogenize` brackets.csv, of `stress` limits.csv, of all
-with claims claims.csv. Each row ends with the run and the revision that its figures are of. A run
+Of runs of `homespun strain` errors.csv, of `bend` bending.csv, of `homogenize` brackets.csv, of
+`stress` limits.csv, of all with claims claims.csv. Each row ends with the run and the revision that its figures are of. A run
 that did not end, or whose files were changed since, is refused. Exit status: 0, or 2 with one
 message per fault.
 """
@@ -23,11 +23,13 @@ from read.cell_results import relative_width  # noqa: E402
 from read.runs import read_run  # noqa: E402
 from read.schema import NoSchema  # noqa: E402
 from read.stored import BadResults  # noqa: E402
+from of_bend import bending  # noqa: E402
 from of_strain import errors  # noqa: E402
 from run_files import Results  # noqa: E402
 
 KEYS = {  # columns that name a row of each file
     "errors.csv": ("set", "cell", "load", "strain"),
+    "bending.csv": ("cell", "load", "what"),
     "brackets.csv": ("cell",),
     "claims.csv": ("command", "of"),
     "limits.csv": ("axis", "of"),
@@ -112,6 +114,7 @@ def claims(results):
 
 TABLES = {
     "strain": {"errors.csv": errors},
+    "bend": {"bending.csv": bending},
     "homogenize": {"brackets.csv": brackets},
     "stress": {"limits.csv": limits},
 }

@@ -11,6 +11,7 @@ import re
 import sys
 from statistics import median
 
+import bent_section
 from make import names_of, variants
 from numbers_of_page import LETTERS, UNBROKEN, table, three, with_bar
 from peers_section import section
@@ -224,6 +225,7 @@ def page(tables):
         " strain at which the law loses ellipticity.\n",
         *lost(rows),
         *section(tables["peers.csv"]),
+        *(bent_section.section(tables["bending.csv"]) if "bending.csv" in tables else []),
         "## Guaranteed brackets on C^H\n",
         "Width: the largest difference of the two bounds on the energy, over all macro strains, divided by"
         " the upper one. Mesh: the shipped one, or where arcs are drawn the one that resolves them;"

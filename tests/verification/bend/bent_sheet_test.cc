@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 
 using namespace homespun;
@@ -44,11 +45,14 @@ TEST(order_bent_sheet, is_first_with_the_homogenized_plate_alone_and_second_with
 {
   const homogenization::UnitCell unit = three_stripes();
   const BendingCell cell(unit);
+  // Corners between clamped and free edges with exponents near 1 leave k eps² (A + B ln N).
+  const double of_corners = std::log(8.) / std::log(4.);
   for (const char *load : {"roll", "cantilever-1", "cantilever-2", "twist"})
   {
     const auto of_method = growth(cell, load);
     EXPECT_NEAR(of_method[affine], 2., 0.4) << load;
-    EXPECT_NEAR(of_method[full], 1., 0.25) << load;
+    EXPECT_GT(of_method[full], 0.75) << load;
+    EXPECT_LT(of_method[full], of_corners) << load;
   }
   // All around clamped, what is left at the edge is a larger part of 4 cells.
   const auto of_method = growth(cell, "pressure");
@@ -64,6 +68,29 @@ TEST(order_bent_sheet, normals_need_both_the_deflection_of_the_cell_and_the_edge
   EXPECT_GT(errors[affine].normal, 20. * errors[full].normal);
   EXPECT_GT(errors[localized].normal, 20. * errors[full].normal);
   EXPECT_GT(errors[with_edges].normal, 5. * errors[full].normal);
+}
+
+// What slip, lift, fluctuation and layers add to a clamped edge cancels there but for the next
+// order.
+TEST(exact_bent_sheet, lies_at_its_clamp_with_its_slope)
+{
+  const homogenization::UnitCell unit = three_stripes();
+  const BendingCell cell(unit);
+  const BentSheet bent(cell, load_of("cantilever-2"), 6, 12);
+  const auto at_clamp = [&](const Method method)
+  {
+    BentState rows(0, 6);
+    for (int v = 0; v < bent.sheet.mesh.n_vertices(); ++v)
+      if (bent.sheet.fraction(bent.sheet.mesh.vertices.row(v))(1) < 1e-9)
+      {
+        rows.conservativeResize(rows.rows() + 1, 6);
+        rows.row(rows.rows() - 1) = bent.error_of_method[method].row(v);
+      }
+    return mean_of(rows);
+  };
+  EXPECT_LT(at_clamp(full).position, 0.1 * at_clamp(localized).position);
+  EXPECT_LT(at_clamp(full).normal, 0.1 * at_clamp(localized).normal);
+  EXPECT_LT(at_clamp(full).normal, 0.1 * at_clamp(with_edges).normal);
 }
 
 TEST(exact_bent_sheet, of_one_material_is_the_homogenized_plate)
@@ -82,7 +109,8 @@ TEST(exact_bent_sheet, of_one_material_is_the_homogenized_plate)
 }
 
 // What carries an error bar from a small sheet to a large one: meshes move slips and beams of
-// edges, and with them the normal by a part of k eps, the position by that times the sheet's side.
+// edges, and with them the normal by a part of k eps, the position by that times the sheet's side;
+// but terms of edges move with the reference.
 TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_sheet)
 {
   const homogenization::UnitCell unit =
@@ -94,13 +122,15 @@ TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_
   for (const char *load : {"roll", "pressure"})
   {
     const auto small   = distance_of_meshes(cell, load_of(load), 3),
-               carried = carried_bars(small, 2.),
+               carried = carried_bars(small, growth_in_linear_theory(2.)),
                large   = distance_of_meshes(cell, load_of(load), 6);
     for (std::size_t m = 0; m < large.size(); ++m)
     {
       // Of an error of order one the limit is twice as far as the finer mesh.
       EXPECT_LT(2. * large[m]->position, carried[m]->position) << load << ' ' << bending_methods[m];
       EXPECT_LT(2. * large[m]->normal, carried[m]->normal) << load << ' ' << bending_methods[m];
+      if (has_edges(bending_methods[m]))
+        continue;
       EXPECT_GT(large[m]->position, 1.5 * small[m]->position) << "a sheet of twice the side";
       EXPECT_NEAR(large[m]->normal / small[m]->normal, 1., 0.5) << load;
     }
@@ -116,15 +146,15 @@ TEST(tripwire_bent_sheet, a_term_of_the_wrong_sign_side_or_size_is_noticed)
     plant(*cell.known.edges, cell.solved);
     return growth(cell, load)[full];
   };
-  using Edges = meshes::CellEdges;
+  using Edges = homogenization::PlateEdges;
   using Cell  = homogenization::PlateCell;
-  EXPECT_GT(planted("cantilever-2", [](Edges &edges, Cell &)
-                    { edges.sides[2].tension = edges.sides[3].tension.eval(); }),
+  EXPECT_GT(planted("cantilever-2",
+                    [](Edges &edges, Cell &) { edges.sides[2].slip = edges.sides[3].slip; }),
             1.5)
     << "slip of the opposite edge";
-  EXPECT_GT(planted("cantilever-1", [](Edges &edges, Cell &) { edges.sides[3].slip *= -1.; }), 1.5)
+  EXPECT_GT(planted("cantilever-1", [](Edges &its, Cell &) { its.sides[3].moment *= -1.; }), 1.5)
     << "sign of one beam";
-  EXPECT_GT(planted("cantilever-2", [](Edges &edges, Cell &) { edges.sides[2].tension *= 0.5; }),
+  EXPECT_GT(planted("cantilever-2", [](Edges &edges, Cell &) { edges.sides[2].slip.slope *= 0.5; }),
             1.5)
     << "half of the slip";
   EXPECT_GT(planted("cantilever-1",

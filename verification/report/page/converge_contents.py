@@ -57,10 +57,9 @@ CAPTIONS = {
         " their phases: mean error of the deflection over kL² and of the normal over kL, with the"
         " root mean square k of the macro curvature and the side L of the sheet. <i>affine</i> is"
         " the plate of D<sup>H</sup> alone, expected of order 1; <i>full</i> has the deflection of"
-        " the cell, the rotation slip of clamps and the beams of free edges, expected of order 2, or"
-        " of twice the exponent of the corners between clamped and free edges. Cells with holes have"
-        " no terms of edges, and no <i>full</i>. The errors with"
-        " either of the two alone stand in converge.csv as <i>localized</i> and"
+        " the cell, its layers at edges, the rotation slip of clamps and the beams of free edges,"
+        " expected of order 2, or of twice the exponent of the corners between clamped and free"
+        " edges. The errors with either of the two alone stand in converge.csv as <i>localized</i> and"
         " <i>affine+edges</i>."
     ),
     "strain": (

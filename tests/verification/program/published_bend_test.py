@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""The published table of sheets that bend, and its section of docs/results.md."""
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(ROOT / "verification" / "published"),
+                str(ROOT / "tests" / "verification" / "report")]
+
+# pylint: disable=wrong-import-position
+import report_path  # noqa: E402, F401
+import bent_section  # noqa: E402
+import of_bend  # noqa: E402
+import published  # noqa: E402
+from made_up_run import verdict, write_run, write_table, write_verdicts  # noqa: E402
+from read import schema  # noqa: E402
+
+SIDE = 0.02
+ERRORS = {"affine": 0.2, "localized": 0.25, "affine+edges": 0.1, "full": 0.05}
+
+
+def write_bend(folder):
+    """Two curvatures of which the errors are proportional, and one sheet at large turns."""
+    os.makedirs(folder)
+    of_case = {"cell": "dots", "load": "twist", "cells": 10, "cell_side_m": SIDE}
+    write_table(folder, "bend.csv", [
+        {**of_case, "curvature_times_cell": k, "reference": reference, "method": method,
+         "error_mean_m": error * k * SIDE * factor, "error_bar_m": 0.01 * k * SIDE,
+         "normal_error_mean_rad": 2. * error * k * factor, "normal_error_bar_rad": 0.02 * k}
+        for reference, factor in (("linear", 1.), ("biot", 7.))
+        for k in (0.01, 0.1) for method, error in ERRORS.items()])
+    write_verdicts(folder, [
+        verdict(schema.claims()[claim]["claim"].format(cell="dots", load="twist", what=what,
+                                                       method=method), outcome, kind="method")
+        for what in of_bend.QUANTITIES
+        for (claim, method), outcome in zip(of_bend.CLAIMS.values(), ("PASS", "FAIL"))])
+    write_run(folder, "bend")
+
+
+class PublishedBendTest(unittest.TestCase):
+    def rows(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = os.path.join(place, "bend")
+            write_bend(folder)
+            return published.rows_of([folder])["bending.csv"]
+
+    def test_errors_are_in_thousandths_of_curvature_and_cell_once_for_all_curvatures(self):
+        position, normal = self.rows()
+        self.assertEqual([(row["what"], row["full_against_base"], row["localized_against_affine"])
+                          for row in (position, normal)],
+                         [("position", "PASS", "FAIL"), ("normal", "PASS", "FAIL")])
+        for method, error in ERRORS.items():
+            self.assertAlmostEqual(position[method], 1000. * error)
+            self.assertAlmostEqual(normal[method], 2000. * error)
+        self.assertAlmostEqual(position["full_bar"], 10.)
+        self.assertAlmostEqual(normal["full_bar"], 20.)
+        self.assertTrue(math.isnan(position["flat"]))
+
+    def test_the_section_has_the_gain_over_the_better_base_and_names_losses(self):
+        rows = [{name: published.field(value) for name, value in row.items()}
+                for row in self.rows()]
+        text = "\n".join(bent_section.section(rows)).replace("\u00a0", " ")
+        self.assertIn("| `dots` | twist | – | 200 | 250 | 100 ± 10 | 50.0 ± 10.0 | 2.00 | nearer |",
+                      text)
+        self.assertIn("Positions, 1 rows: `full` is nearer than its base in 1, farther in 0", text)
+        self.assertIn("is farther than D^H alone in 1: `dots` twist.", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
