@@ -97,6 +97,16 @@ ThinPlate::Values ThinPlate::values(const int triangle, const Eigen::Vector3d &b
   return shapes(triangle, barycentric) * local;
 }
 
+std::vector<Eigen::Matrix<double, 3, 12>>
+ThinPlate::values_and_gradients(const int triangle, const std::vector<WeightedPoint> &points) const
+{
+  const CloughTocher its = element(triangle);
+  std::vector<Eigen::Matrix<double, 3, 12>> rows;
+  for (const WeightedPoint &one : points)
+    rows.push_back(its.value_and_gradient(one.point.piece, one.point.in_piece));
+  return rows;
+}
+
 Eigen::Matrix<double, 27, 12> ThinPlate::curvatures(const int triangle) const
 {
   const auto second = second_derivatives_at_field_points(element(triangle));
@@ -112,14 +122,11 @@ Eigen::VectorXd ThinPlate::pressure() const
   Eigen::VectorXd load                    = Eigen::VectorXd::Zero(n_dofs());
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
   {
-    const CloughTocher its = element(t);
-    const auto dofs        = dofs_of(t);
-    for (const auto &[point, part] : points)
-    {
-      const auto rows = its.value_and_gradient(point.piece, point.in_piece);
+    const auto dofs = dofs_of(t);
+    const auto rows = values_and_gradients(t, points);
+    for (std::size_t q = 0; q < points.size(); ++q)
       for (int k = 0; k < 12; ++k)
-        load(dofs[at(k)]) += area(t) * part * rows(0, k);
-    }
+        load(dofs[at(k)]) += area(t) * points[q].weight * rows[q](0, k);
   }
   return load;
 }

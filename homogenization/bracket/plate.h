@@ -55,6 +55,10 @@ public:
   /// integral kappa.D.kappa of the shapes of a triangle.
   Eigen::Matrix<double, 12, 12> stiffness(int triangle) const;
 
+  /// The first three rows of shapes() at points of a triangle.
+  std::vector<Eigen::Matrix<double, 3, 12>>
+  values_and_gradients(int triangle, const std::vector<WeightedPoint> &points) const;
+
   /// integral v, of a pressure of 1 [m^2 per m of v].
   Eigen::VectorXd pressure() const;
 

@@ -86,26 +86,25 @@ MembraneOfCell::MembraneOfCell(const ThinPlate &plate, const TorusMesh &mesh,
       for (int c = 0; c < 2; ++c)
         unknowns[at(2 * k + c)] =
           2 * (k < 3 ? triangle.vertices[at(k)] : mesh.n_vertices + triangle.sides[at(k - 3)]) + c;
-    Eigen::Matrix<double, 12, 12> matrix      = Eigen::Matrix<double, 12, 12>::Zero();
-    Eigen::Matrix<double, 12, n_columns> load = Eigen::Matrix<double, 12, n_columns>::Zero();
-    for (const auto &[point, part] : points)
+    const auto shapes = plate.values_and_gradients(t, points);
+    using Strains     = Eigen::Matrix<double, 3, 12 + n_columns>; // of the unknowns, and e
+    Eigen::Matrix<double, 12 + n_columns, 12 + n_columns> sum;
+    sum.setZero();
+    for (std::size_t q = 0; q < points.size(); ++q)
     {
-      const double weight          = part * area;
-      const Eigen::Vector3d &place = point.in_triangle;
-      const Eigen::Matrix3d values = plate.shapes(t, place).topRows<3>() * its_phi;
-      Eigen::Matrix<double, 3, n_columns> e;
-      e << strains_of_products(values), Eigen::Matrix3d::Identity();
-      const auto B = strain_displacement<6>(gradients, place);
-      matrix.noalias() += weight * B.transpose() * C * B;
-      load.noalias() += weight * B.transpose() * C * e;
-      products.noalias() += weight * e.transpose() * C * e;
+      Strains strains;
+      strains << strain_displacement<6>(gradients, points[q].point.in_triangle),
+        strains_of_products(shapes[q] * its_phi), Eigen::Matrix3d::Identity();
+      const Strains stresses = points[q].weight * area * C * strains;
+      sum.noalias() += strains.transpose() * stresses;
     }
+    products += sum.bottomRightCorner<n_columns, n_columns>();
     for (int i = 0; i < 12; ++i)
     {
-      loads.row(unknowns[at(i)]) += load.row(i);
+      loads.row(unknowns[at(i)]) += sum.row(i).tail<n_columns>();
       for (int j = 0; j < 12; ++j)
         if (unknowns[at(j)] <= unknowns[at(i)])
-          entries.emplace_back(unknowns[at(i)], unknowns[at(j)], matrix(i, j));
+          entries.emplace_back(unknowns[at(i)], unknowns[at(j)], sum(i, j));
     }
   }
 }
@@ -123,7 +122,7 @@ double RolledCell::stretching(const double angle) const
 {
   const Eigen::Vector3d K = cylinder(angle);
   Eigen::Matrix<double, 6, 1> products;
-  products << K.cwiseAbs2(), K(0) * K(1), K(0) * K(2), K(1) * K(2);
+  products << K(0) * K(0), K(1) * K(1), K(2) * K(2), K(0) * K(1), K(0) * K(2), K(1) * K(2);
   return std::max(0., products.dot(membrane * products)) / K.dot(stiffness * K);
 }
 
@@ -141,6 +140,16 @@ double RolledCell::most(const double angle, const double radius) const
 double RolledCell::least_radius(const double angle, const double tolerance) const
 {
   return stiffest(angle) <= 1. + tolerance ? 0. : std::sqrt(stretching(angle) / tolerance);
+}
+
+RolledCell::Roll RolledCell::worst(const double tolerance) const
+{
+  Roll worst{0, 0.};
+  for (int degrees = 0; degrees < 180; ++degrees)
+    if (const double radius = least_radius(degrees * M_PI / 180., tolerance);
+        radius > (1. + 1e-9) * worst.radius)
+      worst = {degrees, radius};
+  return worst;
 }
 
 RolledCell rolled_cell(const TorusMesh &mesh,

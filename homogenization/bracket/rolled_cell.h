@@ -40,6 +40,16 @@ struct RolledCell
   /// The radius from which on most() is at most 1 + tolerance [m]; 0 where it always is.
   double least_radius(double angle, double tolerance) const;
 
+  /// A direction, in whole degrees from x, and its least_radius() [m].
+  struct Roll
+  {
+    int degrees;
+    double radius;
+  };
+
+  /// The one of which the largest radius is asked for.
+  Roll worst(double tolerance) const;
+
   Eigen::Matrix3d stiffness;      ///< D^H of the mesh [N m]
   Eigen::Matrix3d mean_stiffness; ///< mean of D, holes counting as zero [N m]
   /// Q for the products 11, 22, 33, 12, 13, 23 of the entries of K [N m^3].

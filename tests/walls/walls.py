@@ -92,7 +92,7 @@ MAY_INCLUDE = {
                             "verification/periodic", "verification/stress"} | CELLS,
     "verification/program": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/command", "verification/ellipticity",
-                             "verification/method",
+                             "verification/method", "verification/cell",
                              "verification/reference", "verification/judge",
                              "verification/verify"} | CELLS,
 }

@@ -73,6 +73,27 @@ CellBending bending_of(const homogenization::UnitCell &cell, const BracketOption
   return result;
 }
 
+KnownRoll roll_of(const homogenization::UnitCell &cell, const BracketOptions &options)
+{
+  if (const std::string why = too_large_text(cell, options); !why.empty())
+    return {std::nullopt, why};
+  try
+  {
+    return {homogenization::rolled_cell(torus_of(cell, options.refine),
+                                        cell.bending_stiffness_of_phase(),
+                                        cell.stiffness_of_phase()),
+            ""};
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    return {std::nullopt, bad.what()};
+  }
+  catch (const meshes::NotConverged &failed)
+  {
+    return {std::nullopt, failed.what()};
+  }
+}
+
 std::vector<Verdict> checks_of(const CellBending &bending, const BracketOptions &options)
 {
   if (!bending.bracket)

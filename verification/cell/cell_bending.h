@@ -33,6 +33,9 @@ struct CellBending
 CellBending bending_of(const homogenization::UnitCell &cell, const BracketOptions &options,
                        const std::function<void(const std::string &)> &report);
 
+/// Rolls a cell up, on this process alone.
+KnownRoll roll_of(const homogenization::UnitCell &cell, const BracketOptions &options);
+
 /// D_lower <= D <= D_upper, and the width that was asked for; that there is none where neither the
 /// settings nor --max-dofs left it out.
 std::vector<Verdict> checks_of(const CellBending &bending, const BracketOptions &options);

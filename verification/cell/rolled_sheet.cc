@@ -9,24 +9,49 @@
 
 namespace homespun::verification
 {
-KnownRoll roll_of(const homogenization::UnitCell &cell, const BracketOptions &options)
+using homogenization::Finding;
+using homogenization::UnitCell;
+
+namespace
 {
-  if (const std::string why = too_large_text(cell, options); !why.empty())
-    return {std::nullopt, why};
+Finding warning_of_folds(const UnitCell &cell, const std::string &what, const std::string &remedy)
+{
+  return {homogenization::Severity::warning, "folds", cell.file + ": " + what, remedy, {}};
+}
+} // namespace
+
+std::vector<Finding> findings_of_folds(const UnitCell &cell)
+{
+  if (cell.mesh.n_triangles() > most_triangles_rolled_at_once)
+    return {};
+  const auto not_known = [&](const std::exception &why) -> std::vector<Finding>
+  {
+    return {warning_of_folds(
+      cell, std::string("the radius from which on D^H holds is not known: ") + why.what(), "")};
+  };
   try
   {
-    return {homogenization::rolled_cell(torus_of(cell, options.refine),
-                                        cell.bending_stiffness_of_phase(),
-                                        cell.stiffness_of_phase()),
-            ""};
+    const auto worst =
+      homogenization::rolled_cell(homogenization::glued(cell.mesh, cell.lattice, cell.curved_sides),
+                                  cell.bending_stiffness_of_phase(), cell.stiffness_of_phase())
+        .worst(tolerated_stiffening);
+    if (worst.radius <= radius_of_folds)
+      return {};
+    return {warning_of_folds(
+      cell,
+      "D^H holds to " + percent_text(tolerated_stiffening) +
+        " where the sheet is rolled to a radius of at least " + short_text(100. * worst.radius) +
+        " cm (the worst direction, " + std::to_string(worst.degrees) +
+        " deg from x), and cloth folds more tightly than that: there it is stiffer",
+      "draw a smaller period or thicker phases, or take D^H as a lower bound")};
   }
   catch (const meshes::BadInput &bad)
   {
-    return {std::nullopt, bad.what()};
+    return not_known(bad);
   }
   catch (const meshes::NotConverged &failed)
   {
-    return {std::nullopt, failed.what()};
+    return not_known(failed);
   }
 }
 
@@ -36,21 +61,17 @@ std::string roll_text(const KnownRoll &known)
     return "The radius from which on D^H holds is not known: " + known.why_not;
   const homogenization::RolledCell &rolled = *known.rolled;
   const std::string holds = "D^H holds to " + percent_text(tolerated_stiffening) + " ";
-  const auto radius       = [&](const int degrees)
-  { return rolled.least_radius(degrees * M_PI / 180., tolerated_stiffening); };
-  int worst = 0;
-  for (int degrees = 1; degrees < 180; ++degrees)
-    if (radius(degrees) > (1. + 1e-9) * radius(worst))
-      worst = degrees;
-  if (radius(worst) == 0.)
+  const auto worst        = rolled.worst(tolerated_stiffening);
+  if (worst.radius == 0.)
     return holds + "however tightly the sheet is rolled";
-  constexpr double tight = 0.05; // of the folds of cloth [m]
   char line[400];
   std::snprintf(line, sizeof(line),
                 "where the sheet is rolled to a radius of at least %.3g cm (the "
                 "worst direction, %d deg from x; along x %.3g, along y %.3g cm)%s",
-                100. * radius(worst), worst, 100. * radius(0), 100. * radius(90),
-                radius(worst) > tight
+                100. * worst.radius, worst.degrees,
+                100. * rolled.least_radius(0., tolerated_stiffening),
+                100. * rolled.least_radius(0.5 * M_PI, tolerated_stiffening),
+                worst.radius > radius_of_folds
                   ? "\nwarning: cloth folds more tightly than that: there it is stiffer than D^H, "
                     "because the period is long beside the thickness"
                   : "");

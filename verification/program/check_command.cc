@@ -5,6 +5,7 @@
 #include "homogenization/cell/cell_keys.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
+#include "verification/cell/rolled_sheet.h"
 #include "verification/command/command.h"
 #include "verification/command/report_script.h"
 #include "verification/ellipticity/default_law.h"
@@ -87,6 +88,9 @@ void describe(const UnitCell &cell, const int n_warnings)
   const double covered = areas.sum() / cell.lattice.area();
   if (covered < 1. - 1e-9)
     std::cout << "  holes: " << 100. * (1. - covered) << " % of the area\n";
+  if (cell.mesh.n_triangles() > most_triangles_rolled_at_once)
+    std::cout << "  bending: of more than " << most_triangles_rolled_at_once
+              << " triangles `homespun homogenize` tells from which radius on D^H holds\n";
 }
 
 /// Phases that stop being elliptic under the corotational law, pulled along one of their yarns.
@@ -227,6 +231,8 @@ CellReading tell_findings(const std::string &file)
   if (!homogenization::has_errors(reading.findings))
   {
     add_ellipticity_findings(reading);
+    for (const Finding &finding : findings_of_folds(reading.cell))
+      reading.findings.push_back(finding);
     describe(reading.cell, number_of(reading.findings, Severity::warning));
   }
   std::cout << std::flush;
@@ -241,7 +247,7 @@ CellReading tell_findings(const std::string &file)
 void CheckCommand::add(CommandLine &line)
 {
   CLI::App *command = line.app.add_subcommand(
-    "check", "Read and check cells: all errors, and what may cause trouble later; solve nothing");
+    "check", "Read and check cells at once: all errors, and what may cause trouble later");
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("CELL.prm", arguments->files, "Cell files")->required();
   command->add_option(

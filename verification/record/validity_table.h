@@ -17,9 +17,9 @@ namespace homespun::verification
 /// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
 /// meets the limit. `elliptic_up_to` is the strain of the load from which on a triangle of
 /// reference or coarse cloth is not elliptic, the same for every measure and limit; empty where all
-/// levels that were reached are. Rows are of `localized`, of the method that the study speaks of
-/// (method/method.h), and of its `base`, which keeps the limit without up-sampling (gains.csv says
-/// which method that is at each level).
+/// levels that were reached are. `least_radius_m` is the same for every row of a cell. Rows are of
+/// `localized`, of the method that the study speaks of (method/method.h), and of its `base`, which
+/// keeps the limit without up-sampling (gains.csv says which method that is at each level).
 struct ValidityRow
 {
   static constexpr const char *file   = "validity.csv";
@@ -32,6 +32,8 @@ struct ValidityRow
   double largest = none, lower = none, upper = none;
   std::string note;
   double elliptic_up_to = none;
+  double least_radius   = none; ///< of a roll of the sheet along any direction: from there on it is
+                              ///< at most 2 % stiffer than D^H; zero: always; empty: not known [m]
 
   template <typename Column>
   static void columns(Column &&column)
@@ -48,6 +50,7 @@ struct ValidityRow
     column("largest_strain_upper", &ValidityRow::upper, Domain::not_negative);
     column("note", &ValidityRow::note, Domain::text);
     column("elliptic_up_to", &ValidityRow::elliptic_up_to, Domain::not_negative);
+    column("least_radius_m", &ValidityRow::least_radius, Domain::not_negative);
   }
 };
 } // namespace homespun::verification

@@ -131,7 +131,8 @@ void StrainOutput::write_note(const StrainLevel &level, std::string text)
 void StrainOutput::write_gains() const
 {
   Table<GainRow>(folder).replace(gain_rows(strain.rows()));
-  Table<ValidityRow>(folder).replace(validity_rows(strain.rows(), levels.rows()));
+  Table<ValidityRow>(folder).replace(
+    validity_rows(strain.rows(), levels.rows(), least_radius_of_cell));
 }
 
 std::vector<std::string> StrainOutput::notes() const

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,6 +78,8 @@ public:
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
   std::unique_ptr<Table<CrossCheckRow>> checks; ///< with the budget
   std::unique_ptr<Table<RunTimeRow>> run_time;  ///< none where it is left out
+  /// From which on D^H holds, of each cell of which it is known, for validity.csv [m].
+  std::map<std::string, double> least_radius_of_cell;
 
 private:
   const std::string folder;

@@ -105,6 +105,9 @@ private:
             {
               add(cell_file_verdicts(write_cell(cell, assessed) + "/cell.h5", cell));
               add(self_checks(cell, laws_of(options), options.strains.back()));
+              if (const KnownRoll roll = roll_of(cell, {}); roll.rolled)
+                output->least_radius_of_cell[cell.name] =
+                  roll.rolled->worst(tolerated_stiffening).radius;
             });
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());

@@ -142,13 +142,13 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
           shown(best),
           shown(low),
           shown(high),
-          note,
-          ValidityRow::none};
+          note};
 }
 } // namespace
 
 std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
-                                       const std::vector<LevelRow> &levels)
+                                       const std::vector<LevelRow> &levels,
+                                       const std::map<std::string, double> &least_radius_of_cell)
 {
   const std::vector<StrainRow> all = with_bases(given);
   const auto is_judged             = [&](const StrainRow &row)
@@ -207,6 +207,9 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
                       "no equilibrium of reference or coarse cloth was found at strain " +
                       short_text(first_unreached);
         row.elliptic_up_to = up_to;
+        if (const auto known = least_radius_of_cell.find(row.cell);
+            known != least_radius_of_cell.end())
+          row.least_radius = known->second;
         end_at_loss(row);
         rows.push_back(row);
       }

@@ -6,6 +6,8 @@
 
 #include "verification/strain/strain_tables.h"
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace homespun::verification
@@ -43,6 +45,8 @@ constexpr const char *base_method = "base";
 /// and the first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the
 /// range: beyond it the reference is one equilibrium of its mesh.
 /// @param levels rows of levels.csv, for the strain of the first loss
-std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows,
-                                       const std::vector<LevelRow> &levels = {});
+/// @param least_radius_of_cell from which on D^H holds, of each cell of which it is known [m]
+std::vector<ValidityRow>
+validity_rows(const std::vector<StrainRow> &rows, const std::vector<LevelRow> &levels = {},
+              const std::map<std::string, double> &least_radius_of_cell = {});
 } // namespace homespun::verification

@@ -173,6 +173,11 @@ TEST(exact_rolled_cell, where_phases_bend_alike_no_radius_is_too_small)
   const RolledCell rolled =
     rolled_cell(glued(cell.mesh, cell.lattice), cell.stiffness, cell.stiffness);
   EXPECT_EQ(rolled.least_radius(0.3, 0.02), 0.);
+  EXPECT_EQ(rolled.worst(0.02).radius, 0.);
+  for (int degrees = 0; degrees < 180; ++degrees)
+    EXPECT_GE(rolled.worst(1e-6).radius, rolled.least_radius(degrees * M_PI / 180., 1e-6));
+  EXPECT_EQ(rolled.worst(1e-6).radius,
+            rolled.least_radius(rolled.worst(1e-6).degrees * M_PI / 180., 1e-6));
   EXPECT_GT(rolled.least_radius(0.3, 1e-6), 0.);
   EXPECT_NEAR(rolled.most(0.3, rolled.least_radius(0.3, 1e-6)), 1. + 1e-6, 1e-12);
 }

@@ -22,10 +22,10 @@ AT_ONCE = [("--help",), ("--version",), (), ("frobnicate",), ("strain", "--frobn
            ("upsample", "cell.h5", "f.obj", "--rest", "r.obj", "--format", "none"),
            *((command, "--help") for command in COMMANDS)]
 # What the program is linked with: HDF5, which brings MPI and what the system's MPI needs, the C++
-# runtime, and the BLAS that it asks for its name. UCX, which MPI of Debian 13 stands on, opens
-# plugins of its own when it is loaded.
+# runtime, the BLAS that it asks for its name, and CHOLMOD, by which `check` bends a cell. UCX,
+# which MPI of Debian 13 stands on, opens plugins of its own when it is loaded.
 OWN = (r"libhdf5|libmpi_cxx|libstdc\+\+|libgcc_s|lib(open)?blas|libgfortran|libquadmath|"
-       r"libuc[a-z]_|libfuse3")
+       r"libuc[a-z]_|libfuse3|lib(cholmod|c?c?(ol)?amd|suitesparseconfig|metis|lapack|gomp)\.")
 
 
 def loads_of(path):

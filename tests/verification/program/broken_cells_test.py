@@ -241,6 +241,30 @@ class BrokenCells(InFolder):
                 self.assertEqual(any_error, severity == ERROR, said)
                 self.assertEqual(result.returncode, 2 if any_error else 0, said)
 
+    def test_a_cell_that_is_stiffer_in_folds_than_its_bending_stiffness_says_is_warned_of(self):
+        # The radius goes as side^2 over thickness: 1 cm needs 2.3 cm, 2 cm more than 5.
+        cell = Cell()
+        cell.keys["Length unit"] = "0.02"
+        result, findings = self.findings(cell)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([finding["kind"] for finding in findings], ["folds"])
+        self.assertIn("cloth folds more tightly than that", result.stdout)
+        cell.keys["Thickness"] = "soft: 1e-3, hard: 1e-3"
+        self.assertEqual(self.findings(cell)[1], [])
+
+    def test_how_a_large_cell_folds_is_left_to_a_command_that_solves(self):
+        cell = Cell()
+        cell.keys["Length unit"] = "0.02"
+        fine = 7 * N  # 6,272 triangles
+        cell.points = [[i / fine, j / fine, 0.] for j in range(fine + 1) for i in range(fine + 1)]
+        corners = [j * (fine + 1) + i for j in range(fine) for i in range(fine)]
+        cell.triangles = [half for a in corners
+                          for half in ([a, a + 1, a + fine + 2], [a, a + fine + 2, a + fine + 1])]
+        cell.groups = [1 if k < fine * fine else 2 for k in range(2 * fine * fine)]
+        result, findings = self.findings(cell)
+        self.assertEqual((result.returncode, findings), (0, []), result.stderr)
+        self.assertIn("`homespun homogenize` tells from which radius on D^H holds", result.stdout)
+
     def test_the_lattice_of_a_hexagon_is_found_from_its_outline(self):
         cell = Cell()
         corner = [[math.cos(k * math.pi / 3), math.sin(k * math.pi / 3), 0.] for k in range(6)]

@@ -64,6 +64,10 @@ class Budget(InFolder):
         validity = rows_of(self.folder / "validity.csv")
         self.assertEqual(len(validity), 2 * 5)
         self.assertEqual({row["relation"] for row in validity} - {"=", ">", "-"}, set())
+        # Of stripes in closed form at 45 degrees, see cli_test.py; the worst direction is near.
+        (radius,) = {row["least_radius_m"] for row in validity}
+        self.assertGreater(float(radius), 0.03 * (0.01102 / 0.02) ** 0.5)
+        self.assertLess(float(radius), 0.025)
         claims = [v for v in json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
                   if "the parts leave" in v["claim"]]
         self.assertEqual(len(claims), 4)

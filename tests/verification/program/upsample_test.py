@@ -177,8 +177,10 @@ class Results(Upsampling):
     def test_indicators_stand_against_the_range_of_validity(self):
         (self.folder / "validity.csv").write_text(
             "cell,load,reference,method,measure,limit,relation,largest_strain,"
-            "largest_strain_lower,largest_strain_upper,note,elliptic_up_to\n"
-            "layered,strip-1,biot,localized,cell side,0.01,=,0.015,0.01,0.02,,\n", encoding="utf-8")
+            "largest_strain_lower,largest_strain_upper,note,elliptic_up_to,"
+            "least_radius_m\n"
+            "layered,strip-1,biot,localized,cell side,0.01,=,0.015,0.01,0.02,,,0.023\n",
+            encoding="utf-8")
         stdout = self.upsample(*self.moving(3), "--validity", self.folder / "validity.csv")
         self.assertIn("cell layered was found valid up to 0.015", stdout)
         self.assertIn("32 of 32 triangles above 0.015", stdout)

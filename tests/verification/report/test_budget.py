@@ -150,6 +150,7 @@ def write_budget(folder):
         "largest_strain_upper",
         "note",
     )
+    level["least_radius_m"] = 0.0234
     write_table(folder, "validity.csv", [{**level, **dict(zip(names, row))} for row in validity])
     if os.path.isfile(os.path.join(folder, "run.json")):
         list_again(folder)
@@ -263,6 +264,15 @@ class Budget(unittest.TestCase):
         self.assertEqual(text("-", high=0.003), "– (up to 0.3 %)")
 
 
+    def test_the_radius_of_rolls_is_told_where_it_is_known(self):
+        def text(radius):
+            return budget_contents.folds_text([{"least_radius_m": radius}])
+
+        self.assertIn("at least 5.68 cm", text(0.05678))
+        self.assertIn("2 % always", text(0.0))
+        self.assertEqual(text(math.nan), "")
+
+
 class BudgetReport(PageTest):
     def setUp(self):
         super().setUp()
@@ -291,6 +301,7 @@ class BudgetReport(PageTest):
             "3.1 % (3 to 3.2)",
             "already 3 % of the fluctuation",
             "a note, with a comma",
+            "In bending Dᴴ holds to 2 % on rolls of a radius of at least 2.34 cm",
         ):
             self.assertIn(text, page)
 

@@ -66,6 +66,9 @@ TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
   }
   const std::vector<ValidityRow> of_both = validity_rows(both);
   ASSERT_EQ(of_both.size(), 10u);
+  EXPECT_TRUE(std::isnan(of_both[3].least_radius));
+  for (const ValidityRow &row : validity_rows(both, {}, {{"cell", 0.023}, {"other", 0.07}}))
+    EXPECT_EQ(row.least_radius, 0.023);
   EXPECT_EQ(of_both[3].method, "localized");
   EXPECT_NEAR(of_both[3].largest, 0.01, 1e-12);
   EXPECT_EQ(of_both[8].method, "full");

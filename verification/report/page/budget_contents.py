@@ -263,7 +263,17 @@ def validity_table(rows):
         "columns": [f"{percent(float(limit))} of the {measure}" for measure, limit in columns],
         "rows": lines,
         "notes": [f"{'; '.join(where)}: {note}" for note, where in grouped.items()],
+        "folds": folds_text(rows),
     }
+
+
+def folds_text(rows):
+    """From which radius on D^H holds, a sentence; empty where no row of the cell knows."""
+    known = [row["least_radius_m"] for row in rows if not math.isnan(row["least_radius_m"])]
+    if not known:
+        return ""
+    where = f"on rolls of a radius of at least {three(100.0 * known[0])} cm" if known[0] else "always"
+    return f"In bending Dᴴ holds to 2 % {where}, along every direction."
 
 
 def validity_text(row):
