@@ -2,12 +2,14 @@
 #include "verification/drape/coarse_run.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/terms/short_waves.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/step_times.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -126,6 +128,33 @@ void move_to(const int frame, const DrapeSchedule &schedule, SceneCloth &moving,
 }
 } // namespace
 
+void RunOfWaves::add(const int frame_number, const double sides_of_frame, const double side)
+{
+  if (!std::isfinite(sides_of_frame))
+    return;
+  ++n;
+  if (sides_of_frame < sides)
+  {
+    sides  = sides_of_frame;
+    metres = sides * side;
+    frame  = frame_number;
+  }
+}
+
+std::string sentence_of(const RunOfWaves &waves, const std::size_t n_frames)
+{
+  if (waves.n == 0)
+    return "";
+  char line[240];
+  std::snprintf(
+    line, sizeof(line),
+    "the coarse cloth has waves shorter than %.2g of its sides in %d of %zu frames, the "
+    "shortest of some %.2g sides (%.2g cm) in frame %d: too short for the mesh, which "
+    "may have made them; a finer one tells",
+    shell::ShortWaves::longest, waves.n, n_frames, waves.sides, 100. * waves.metres, waves.frame);
+  return line;
+}
+
 bool belongs(const CoarseRun &run, const DrapedCell &draped, const std::string &method)
 {
   return run.cloth.is_of_method ? run.cloth.variant == method
@@ -163,6 +192,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const CoarseCloth &cloth,
   ClothMaterial material = draped.effective_of(cloth.method);
   material.law           = cloth.law;
   SceneCloth moving(draped.scene, draped.coarse, material, held);
+  const shell::ShortWaves finder(draped.coarse);
   const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {
@@ -181,6 +211,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const CoarseCloth &cloth,
       break;
     }
     run.frames.push_back(moving.cloth().positions());
+    run.waves.add(frame, finder.shortest(run.frames.back()), finder.side());
     if (frame > 0)
       output.write_held_forces(
         of_rows, frame,
@@ -211,6 +242,8 @@ CoarseRun run_coarse(const DrapedCell &draped, const CoarseCloth &cloth,
                                 {"folder", name},
                                 {"frames", run.frames.size()},
                                 {"cut_steps", costs.cuts},
+                                {"frames_with_short_waves", run.waves.n},
+                                {"shortest_wave_sides", json_number(run.waves.sides)},
                                 {"bytes", moving.cloth().bytes()},
                                 {"threads", 1}};
   run.description.update(times_of_steps(costs.steps, costs.n_factorizations));

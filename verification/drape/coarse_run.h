@@ -12,6 +12,7 @@
 #include "verification/record/timing.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,20 @@ struct CoarseCloth
 std::vector<CoarseCloth> cloths_of(const DrapeOptions &options, Law main,
                                    const std::function<Method(const Method &)> &used);
 
+/// Waves of a run that are too short for its mesh.
+struct RunOfWaves
+{
+  /// Those of one more frame.
+  /// @param sides_of_frame their length; infinite where none are too short
+  /// @param side of the mesh [m]
+  void add(int frame_number, double sides_of_frame, double side);
+
+  double sides  = std::numeric_limits<double>::infinity(); ///< length of the shortest
+  double metres = std::numeric_limits<double>::infinity(); ///< the same [m]
+  int frame     = 0;                                       ///< that has it
+  int n         = 0;                                       ///< frames with such waves
+};
+
 /// A coarse cloth at every frame.
 struct CoarseRun
 {
@@ -42,8 +57,12 @@ struct CoarseRun
   std::string failure = {};
   std::vector<shell::Vectors> frames = {};                   ///< (n_coarse,3) [m]
   double seconds_per_step = 0., seconds_per_upsampling = 0.; ///< medians [s]
-  nlohmann::ordered_json description = {};                   ///< for drape.json
+  RunOfWaves waves                   = {};
+  nlohmann::ordered_json description = {}; ///< for drape.json
 };
+
+/// What is to be said of them, after the name of a run; empty where none are too short.
+std::string sentence_of(const RunOfWaves &waves, std::size_t n_frames);
 
 /// Whether a run is up-sampled by a method: one with a cloth of its own goes with that cloth alone.
 bool belongs(const CoarseRun &run, const DrapedCell &draped, const std::string &method);

@@ -231,6 +231,8 @@ private:
                        static_cast<int>(run.frames.size()), drape.schedule.n_frames + 1));
     if (!run.failure.empty())
       drape.notes.push_back(title + ": " + run.failure);
+    if (const std::string waves = sentence_of(run.waves, run.frames.size()); !waves.empty())
+      drape.note(title + ": " + waves);
   }
 
   StudyDescription conclude() override

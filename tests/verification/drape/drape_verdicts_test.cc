@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "verification/drape/coarse_run.h"
 #include "verification/drape/drape_verdicts.h"
 
 #include <gtest/gtest.h>
@@ -125,4 +126,17 @@ TEST(exact_drape_verdicts, other_variants_references_and_the_beginning_are_not_j
   rows = rows_of(0.04, 0.02, 0.01);
   rows.resize(1);
   EXPECT_TRUE(verdicts_of_accuracy(rows, {"cell", "corotational", "biot"}, 1.).empty());
+}
+
+TEST(exact_run_of_waves, the_shortest_waves_of_a_run_are_said_and_none_where_all_are_long)
+{
+  RunOfWaves waves;
+  waves.add(0, std::numeric_limits<double>::infinity(), 0.01);
+  EXPECT_EQ(sentence_of(waves, 1), "");
+  waves.add(1, 5.5, 0.01);
+  waves.add(2, 2.5, 0.01);
+  waves.add(3, 6.5, 0.01);
+  const std::string said = sentence_of(waves, 4);
+  EXPECT_NE(said.find("shorter than 8 of its sides in 3 of 4 frames"), std::string::npos) << said;
+  EXPECT_NE(said.find("some 2.5 sides (2.5 cm) in frame 2"), std::string::npos) << said;
 }
