@@ -129,7 +129,12 @@ double RolledCell::stretching(const double angle) const
 double RolledCell::stiffest(const double angle) const
 {
   const Eigen::Vector3d K = cylinder(angle);
-  return K.dot(mean_stiffness * K) / K.dot(stiffness * K);
+  double limit            = K.dot(mean_stiffness * K);
+  for (const IsometricBending &its : isometric)
+    if (std::abs(std::sin(angle - its.angle)) < 1e-9)
+      limit = its.stiffness;
+  // Not below one, where D^H is the energy of finite elements.
+  return std::max(1., limit / K.dot(stiffness * K));
 }
 
 double RolledCell::most(const double angle, const double radius) const
@@ -181,6 +186,9 @@ RolledCell rolled_cell(const TorusMesh &mesh,
     (energies.topLeftCorner<6, 6>() -
      coupling * energies.bottomRightCorner<3, 3>().inverse() * coupling.transpose()) /
     mesh.lattice.area();
+  for (const std::array<int, 2> &ruling : short_rulings())
+    rolled.isometric.push_back(
+      isometric_bending(plate.mesh, mesh.lattice, bending_stiffness_of_material, ruling));
   rolled.mean_stiffness.setZero();
   for (const TorusTriangle &triangle : mesh.triangles)
     rolled.mean_stiffness += area_of(triangle.shape(mesh.edges)) / mesh.lattice.area() *

@@ -5,13 +5,15 @@
 //   eps(u) + e,   e = ½ grad phi (x) grad phi − phi K,   u periodic, its mean strain free,
 // for K = n (x) n / R of a cylinder (other K have a Gauss curvature and are no periodic state). The
 // energy per area is ½ D_eff(R)(n) / R^2 with
-//   D^H_nn <= D_eff(R) <= min(D^H_nn + Q(n) / R^2, mean of D_nn over the cell):
-// stretching costs energy; phi of D^H with its best u is one competitor, phi = 0 another one. Both
-// are those of this mesh. The first is exact to order R^-4 where D^H itself is.
+//   D^H_nn <= D_eff(R) <= min(D^H_nn + Q(n) / R^2, D_inf(n)):
+// stretching costs energy; phi of D^H with its best u is one competitor, one that bends without
+// stretching another (isometric_bending.h). Both are those of this mesh. The first is exact to
+// order R^-4 where D^H itself is, the second in the limit of small R.
 // Sources: S. Neukamm and H. Olbermann, Calc. Var. 53 (2015); K. D. Cherdantsev and
 // M. I. Cherednichenko, Calc. Var. 54 (2015), on the limit of small R.
 #pragma once
 
+#include "homogenization/bracket/isometric_bending.h"
 #include "homogenization/cell/torus_mesh.h"
 
 #include <Eigen/Core>
@@ -31,7 +33,8 @@ struct RolledCell
   /// Q(n) / D^H_nn for n = (cos angle, sin angle) [m^2].
   double stretching(double angle) const;
 
-  /// Mean of D_nn over the cell, over D^H_nn: the bound of a sheet rolled as tightly as one likes.
+  /// D_inf(n) / D^H_nn, of a sheet rolled as tightly as one likes; the mean of D_nn over the cell
+  /// in place of D_inf where the ruling is none of `isometric`.
   double stiffest(double angle) const;
 
   /// Upper bound on D_eff(R) / D^H_nn.
@@ -54,6 +57,7 @@ struct RolledCell
   Eigen::Matrix3d mean_stiffness; ///< mean of D, holes counting as zero [N m]
   /// Q for the products 11, 22, 33, 12, 13, 23 of the entries of K [N m^3].
   Eigen::Matrix<double, 6, 6> membrane;
+  std::vector<IsometricBending> isometric; ///< of short_rulings()
 };
 
 /// @param bending_stiffness_of_material D [N m]

@@ -37,13 +37,15 @@ std::vector<Finding> findings_of_folds(const UnitCell &cell)
         .worst(tolerated_stiffening);
     if (worst.radius <= radius_of_folds)
       return {};
-    return {warning_of_folds(
-      cell,
-      "D^H holds to " + percent_text(tolerated_stiffening) +
-        " where the sheet is rolled to a radius of at least " + short_text(100. * worst.radius) +
-        " cm (the worst direction, " + std::to_string(worst.degrees) +
-        " deg from x), and cloth folds more tightly than that: there it is stiffer",
-      "draw a smaller period or thicker phases, or take D^H as a lower bound")};
+    char where[160];
+    std::snprintf(
+      where, sizeof(where),
+      " where the sheet is rolled to a radius of at least %.3g cm (the worst direction, "
+      "%d deg from x), and cloth folds more tightly than that: there it is stiffer",
+      100. * worst.radius, worst.degrees);
+    return {
+      warning_of_folds(cell, "D^H holds to " + percent_text(tolerated_stiffening) + where,
+                       "draw a smaller period or thicker phases, or take D^H as a lower bound")};
   }
   catch (const meshes::BadInput &bad)
   {
@@ -64,13 +66,22 @@ std::string roll_text(const KnownRoll &known)
   const auto worst        = rolled.worst(tolerated_stiffening);
   if (worst.radius == 0.)
     return holds + "however tightly the sheet is rolled";
-  char line[400];
+  int stiffest = 0; // degrees from x
+  for (int degrees = 1; degrees < 180; ++degrees)
+    if (rolled.stiffest(degrees * M_PI / 180.) >
+        (1. + 1e-9) * rolled.stiffest(stiffest * M_PI / 180.))
+      stiffest = degrees;
+  char line[600];
   std::snprintf(line, sizeof(line),
                 "where the sheet is rolled to a radius of at least %.3g cm (the "
-                "worst direction, %d deg from x; along x %.3g, along y %.3g cm)%s",
+                "worst direction, %d deg from x; along x %.3g, along y %.3g cm)\n"
+                "Rolled ever more tightly, bending without stretching, it is up to %.3g times as "
+                "stiff as D^H (the worst direction, %d deg from x; along x %.3g, along y %.3g)%s",
                 100. * worst.radius, worst.degrees,
                 100. * rolled.least_radius(0., tolerated_stiffening),
                 100. * rolled.least_radius(0.5 * M_PI, tolerated_stiffening),
+                rolled.stiffest(stiffest * M_PI / 180.), stiffest, rolled.stiffest(0.),
+                rolled.stiffest(0.5 * M_PI),
                 worst.radius > radius_of_folds
                   ? "\nwarning: cloth folds more tightly than that: there it is stiffer than D^H, "
                     "because the period is long beside the thickness"
@@ -91,6 +102,11 @@ nlohmann::ordered_json json_rolled(const KnownRoll &known)
     json["least_radius_m"].push_back(known.rolled->least_radius(angle, tolerated_stiffening));
     json["most_stiffening"].push_back(known.rolled->stiffest(angle));
   }
+  for (const homogenization::IsometricBending &its : known.rolled->isometric)
+    json["isometric"].push_back({{"ruling", its.ruling},
+                                 {"degrees_from_x", its.angle * 180. / M_PI},
+                                 {"D_inf", its.stiffness},
+                                 {"most_stiffening", known.rolled->stiffest(its.angle)}});
   return json;
 }
 } // namespace homespun::verification

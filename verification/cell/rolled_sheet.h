@@ -28,11 +28,12 @@ constexpr double tolerated_stiffening = 0.02;
 /// Cloth folds to this radius, and more tightly [m].
 constexpr double radius_of_folds = 0.05;
 
-/// From which radius on D^H holds, in the worst direction and along x and y, with a warning on a
-/// second line where cloth folds more tightly than that; or why that is not known.
+/// From which radius on D^H holds, in the worst direction and along x and y; on a second line how
+/// stiff the sheet is in the limit of small radii; and with a warning on a third one where cloth
+/// folds more tightly than that. Or why that is not known.
 std::string roll_text(const KnownRoll &known);
 
-/// The same, and for each direction from x.
+/// The same, and for each direction from x; D_inf of short rulings by itself.
 nlohmann::ordered_json json_rolled(const KnownRoll &known);
 
 /// Cells with more triangles are left to `homespun homogenize`: these take less than a second.

@@ -166,6 +166,12 @@ class Homogenize(InFolder):
         self.assertAlmostEqual(0.5 * (rolled[44] + rolled[46]),
                                0.03 * math.sqrt(0.01102 / 0.02), delta=1e-4)
         self.assertIn(found["rolled"]["says"], result.stdout)
+        # On ever tighter rolls: D^H across the stripes, the plain mean at 45 deg.
+        limits = {tuple(one["ruling"]): one["most_stiffening"]
+                  for one in found["rolled"]["isometric"]}
+        self.assertAlmostEqual(limits[1, 0], 1., delta=1e-9)
+        self.assertAlmostEqual(limits[1, 1], 1.394, delta=5e-4)
+        self.assertIn("bending without stretching", found["rolled"]["says"])
         with h5py.File(self.folder / "cell.h5") as cell:
             self.assertAlmostEqual(cell["D"][1][1] / D22, 1, delta=1e-9)
             self.assertEqual(cell["deflection"].shape, (len(cell["vertices"]), 3))
