@@ -22,4 +22,12 @@ Modes kind_of_modes(const UpsamplerOptions &options);
 
 /// @throws BadInput where the cell lacks them, or they are not finite
 CellModes cell_modes(const meshes::HomogenizedCell &cell, const UpsamplerOptions &options);
+
+/// What a cell that is bent has at its vertices per unit macro curvature: w_a (3) [m^2], then their
+/// slopes, column 3 + 2 a + c, by finite differences over the triangles around a vertex [m].
+using BentModes = Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>;
+
+/// @return (n,9) of the cell's vertices, w_a with the constant that the options give chi
+/// @throws BadInput where the cell lacks its deflection, or it is not finite
+BentModes bent_modes(const meshes::HomogenizedCell &cell, const UpsamplerOptions &options);
 } // namespace homespun::localization

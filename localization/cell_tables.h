@@ -7,6 +7,7 @@
 #include "localization/cell_triangles.h"
 #include "localization/edge_modes.h"
 #include "localization/vertex_table.h"
+#include "meshes/plain/point_location.h"
 #include "meshes/plain/sheet.h"
 
 #include <cstddef>
@@ -39,10 +40,10 @@ struct CellTables
   }
 
   /// @param n_quads per side of a cell, 1 or 2
-  /// @param modes_at of a fine vertex, as VertexTable::append() takes them
-  template <typename ModesAt>
+  /// @param append a fine vertex, with its place in a coarse triangle, to a table
+  template <typename Append>
   void fill(const meshes::Sheet &sheet, const int n_quads, const EdgeModes &near_edges,
-            const Panel &panel, const ModesAt &modes_at)
+            const Panel &panel, const Append &append)
   {
     quads     = n_quads;
     n_cells   = sheet.n1 * sheet.n2;
@@ -65,8 +66,10 @@ struct CellTables
         table.pad();
         first_row[t] = table.size;
         for (int k = triangles[t].begin; k < triangles[t].end; ++k)
-          table.append(weights_in(triangles[t].in_cell, quads, sheet, k),
-                       modes_at(cell * n_block + k));
+          append(table, cell * n_block + k,
+                 meshes::Location{coarse_triangle(triangles[t].in_cell, quads, n_along,
+                                                  cell % n_along, cell / n_along),
+                                  weights_in(triangles[t].in_cell, quads, sheet, k)});
       }
       chi_of_kind.push_back(std::move(table.chi_blocks));
       free_of_kind.push_back(std::move(table.free_blocks));

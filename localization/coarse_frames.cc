@@ -311,6 +311,15 @@ meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, con
   return with_constant(cell, found->second.chi, anchor, "quadratic modes");
 }
 
+meshes::Deflection anchored_deflection(const meshes::HomogenizedCell &cell, const Anchor anchor)
+{
+  if (!cell.bending)
+    throw meshes::BadInput("cell: has no deflection of a bent sheet, which a curved surface takes: "
+                           "make its cell.h5 again with `homespun homogenize`, with both "
+                           "stiffnesses, or do without");
+  return with_constant(cell, cell.bending->deflection, anchor, "deflections");
+}
+
 meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell,
                                      const meshes::FittedModes &fitted, const Anchor anchor)
 {

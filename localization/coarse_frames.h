@@ -94,6 +94,11 @@ meshes::Chi anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
 meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, const std::string &law,
                                         Anchor anchor);
 
+/// The same of the deflections of a bent cell.
+/// @return (n,3) [m^2]: w_a with that constant
+/// @throws BadInput as anchored(), and where the cell has none
+meshes::Deflection anchored_deflection(const meshes::HomogenizedCell &cell, Anchor anchor);
+
 /// The same of fitted modes.
 /// @throws BadInput as anchored()
 meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell,

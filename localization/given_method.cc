@@ -105,6 +105,13 @@ GivenMethod on_given(const Method &method, const meshes::HomogenizedCell &cell,
     }
     result.left_out += (result.left_out.empty() || note.empty() ? "" : "; ") + note;
   }
+  if (result.used.has(Term::curved) && result.used.has(Term::micro) && !cell.bending &&
+      !method.asks_for(Term::curved))
+  {
+    result.used = result.used.without(Term::curved);
+    result.left_out += std::string(result.left_out.empty() ? "" : "; ") +
+                       "curved is left out, because the cell has no deflection of a bent sheet";
+  }
   if (!result.left_out.empty())
     result.left_out = "method " + method.name + ": " + result.left_out;
 

@@ -2,10 +2,11 @@
 // What a method is on the coarse cloth of somebody else: its up-sampling.
 //
 // The coarse motion is given, and with it whatever moved the cloth: the terms p2 and cubic of a
-// method are its own. Up-sampling has micro, modes and, where edges of a sheet or of panels lie on
-// lattice lines and are not sewn, edges. There the modes of a clamped edge belong to a coarse edge
-// that lies d E off where it is held (meshes/plain/ cell_edges.h). Somebody else's cloth lies where
-// it is held: without slip these modes are worse than none, so that it is added (Slip::added).
+// method are its own. Up-sampling has micro, modes, curved, where the cell has its deflection, and,
+// where edges of a sheet or of panels lie on lattice lines and are not sewn, edges. There the modes
+// of a clamped edge belong to a coarse edge that lies d E off where it is held (meshes/plain/
+// cell_edges.h). Somebody else's cloth lies where it is held: without slip these modes are worse
+// than none, so that it is added (Slip::added).
 #pragma once
 
 #include "localization/method.h"

@@ -43,6 +43,14 @@ struct alignas(64) QuadraticBlock
   Scalar column[12][lanes];
 };
 
+/// How far a block of fine vertices lies off the flat coarse triangle along the normal, per unit
+/// macro curvature (11, 22, 12) [m^2]: the quadric through the corners, and w_a of the cell.
+template <typename Scalar>
+struct alignas(64) DeflectionBlock
+{
+  Scalar column[3][lanes];
+};
+
 /// What a fluctuation is in the strain: linear, quadratic too, or fitted. Fitted modes scale chi
 /// and what clamped edges do to it by an effective strain; what free edges do follows another one
 /// (meshes::strain_of_free_edges), and has columns of its own where there are such edges.
@@ -59,30 +67,44 @@ constexpr bool are_fitted(const int modes)
   return modes == fitted_modes || modes == fitted_modes_and_free_edges;
 }
 
+/// What lies between the corners of a coarse triangle, and whether its normals are written too.
+enum Between
+{
+  flat_triangle,
+  curved_surface,
+  curved_surface_and_normals
+};
+
 /// Numbers per coarse vertex: position (dim), strain (3), lift (2 dim), where modes are fitted
 /// their coefficients (6) and the strain of free edges (3), the first being the effective one;
-/// padded to whole registers.
-constexpr int record_size(const int modes)
+/// of curved surfaces K (3) and n (3), those of coarse_surface.h; padded to whole registers.
+constexpr int record_size(const int modes, const int between)
 {
-  return are_fitted(modes) ? 32 : 16;
+  return are_fitted(modes) || between != flat_triangle ? 32 : 16;
+}
+
+/// Where K and n begin in it.
+constexpr int bent_begin(const int dim, const int modes)
+{
+  return 3 + 3 * dim + (are_fitted(modes) ? 9 : 0);
 }
 
 /// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2.
-template <typename Scalar, int modes>
+template <typename Scalar, int size>
 struct alignas(64) Corners
 {
-  static constexpr int size = record_size(modes);
   Scalar at0[size], to1[size], to2[size];
 };
 
 /// @param records of all coarse vertices, one after the other
-template <int modes, typename Scalar>
-Corners<Scalar, modes> corners_of(const Scalar *const records, const std::array<int, 3> &vertices)
+/// @param stride numbers from one to the next, at least `size`
+template <int size, typename Scalar>
+Corners<Scalar, size> corners_of(const Scalar *const records, const int stride,
+                                 const std::array<int, 3> &vertices)
 {
-  Corners<Scalar, modes> corners;
-  constexpr int size = record_size(modes);
-  const auto record  = [&](const std::size_t k)
-  { return records + static_cast<std::ptrdiff_t>(vertices[k]) * size; };
+  Corners<Scalar, size> corners;
+  const auto record = [&](const std::size_t k)
+  { return records + static_cast<std::ptrdiff_t>(vertices[k]) * stride; };
   const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
   for (int c = 0; c < size; ++c)
   {
@@ -98,9 +120,11 @@ template <typename Scalar>
 struct Blocks
 {
   const Weights<Scalar> *weights;
-  const ChiBlock<Scalar> *chi;             ///< not read without microscopic displacement
-  const QuadraticBlock<Scalar> *quadratic; ///< not read with linear_modes
-  const ChiBlock<Scalar> *free;            ///< of free edges, read beside fitted modes alone
+  const ChiBlock<Scalar> *chi;               ///< not read without microscopic displacement
+  const QuadraticBlock<Scalar> *quadratic;   ///< not read with linear_modes
+  const ChiBlock<Scalar> *free;              ///< of free edges, read beside fitted modes alone
+  const DeflectionBlock<Scalar> *deflection; ///< of curved surfaces
+  const ChiBlock<Scalar> *slopes;            ///< of w_a there, column 2 a + c [m]
 };
 
 /// Adds modes, each times a number of the frame, to the fluctuation of vertex n of a block.
@@ -117,15 +141,60 @@ inline void add_modes(const Frame &frame, const int first, const Scalar (*const 
   }
 }
 
+/// The fluctuation w of vertex n of a block.
+template <int dim, int modes, typename Frame, typename Scalar>
+inline void find_fluctuation(const Frame &frame, const Blocks<Scalar> &blocks, const int block,
+                             const int n, Scalar &w0, Scalar &w1)
+{
+  const auto &columns = blocks.chi[block].column;
+  const Scalar e0 = frame(0), e1 = frame(1), e2 = frame(2);
+  if constexpr (modes == quadratic_modes)
+  {
+    // By Horner's rule: three multiply-adds for each mode of chi in place of one.
+    const auto &q        = blocks.quadratic[block].column;
+    const auto component = [&](const int c)
+    {
+      return e0 * (columns[c][n] + e0 * q[c][n] + e1 * q[6 + c][n] + e2 * q[8 + c][n]) +
+             e1 * (columns[2 + c][n] + e1 * q[2 + c][n] + e2 * q[10 + c][n]) +
+             e2 * (columns[4 + c][n] + e2 * q[4 + c][n]);
+    };
+    w0 = component(0);
+    w1 = component(1);
+  }
+  else
+  {
+    w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n];
+    w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
+  }
+  if constexpr (are_fitted(modes))
+    add_modes<6>(frame, 3 + 2 * dim, blocks.quadratic[block].column, n, w0, w1);
+  if constexpr (modes == fitted_modes_and_free_edges)
+    add_modes<3>(frame, 9 + 2 * dim, blocks.free[block].column, n, w0, w1);
+}
+
+/// Where fine vertices are written, row after row.
+template <typename Scalar>
+struct FineRows
+{
+  Scalar *positions;
+  Scalar *normals; ///< of curved surfaces; null: not asked for
+
+  /// @param offset in numbers
+  FineRows from(const std::ptrdiff_t offset) const
+  {
+    return {positions + offset, normals == nullptr ? nullptr : normals + offset};
+  }
+};
+
 /// Positions x = P + L w in blocks of `lanes` vertices.
 ///
 /// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
 /// registers in which the caller made them: they are 36 for at most a dozen blocks.
 /// @param out (n_blocks * lanes, dim), components side by side
 template <int dim, int terms, int modes, typename Scalar>
-[[gnu::noinline]] void fine_positions(const Corners<Scalar, modes> &corners,
-                                      const Blocks<Scalar> &blocks, const int n_blocks,
-                                      Scalar *__restrict out)
+[[gnu::noinline]] void
+fine_positions(const Corners<Scalar, record_size(modes, flat_triangle)> &corners,
+               const Blocks<Scalar> &blocks, const int n_blocks, Scalar *__restrict out)
 {
   constexpr bool is_blended =
     terms == blended || terms == blended_plane || terms == blended_rotation;
@@ -147,31 +216,8 @@ template <int dim, int terms, int modes, typename Scalar>
         x[i] = linear(i);
       if constexpr (terms != affine)
       {
-        const auto &columns = blocks.chi[block].column;
-        const Scalar e0 = frame(0), e1 = frame(1), e2 = frame(2);
         Scalar w0, w1;
-        if constexpr (modes == quadratic_modes)
-        {
-          // By Horner's rule: three multiply-adds for each mode of chi in place of one.
-          const auto &q        = blocks.quadratic[block].column;
-          const auto component = [&](const int c)
-          {
-            return e0 * (columns[c][n] + e0 * q[c][n] + e1 * q[6 + c][n] + e2 * q[8 + c][n]) +
-                   e1 * (columns[2 + c][n] + e1 * q[2 + c][n] + e2 * q[10 + c][n]) +
-                   e2 * (columns[4 + c][n] + e2 * q[4 + c][n]);
-          };
-          w0 = component(0);
-          w1 = component(1);
-        }
-        else
-        {
-          w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n];
-          w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
-        }
-        if constexpr (are_fitted(modes))
-          add_modes<6>(frame, 3 + 2 * dim, blocks.quadratic[block].column, n, w0, w1);
-        if constexpr (modes == fitted_modes_and_free_edges)
-          add_modes<3>(frame, 9 + 2 * dim, blocks.free[block].column, n, w0, w1);
+        find_fluctuation<dim, modes>(frame, blocks, block, n, w0, w1);
         if constexpr (is_in_plane)
         {
           x[0] += w0;

@@ -15,9 +15,11 @@ using meshes::properties_of;
 using Terms = std::set<Term>;
 
 /// By the enumerators.
-constexpr std::array<const char *, 5> term_names = {"p2", "edges", "cubic", "modes", "micro"};
+constexpr std::array<const char *, 6> term_names = {"p2",    "edges",  "cubic",
+                                                    "modes", "curved", "micro"};
 
-const Terms all_terms = {Term::p2, Term::edges, Term::cubic, Term::modes, Term::micro};
+const Terms all_terms = {Term::p2,    Term::edges,  Term::cubic,
+                         Term::modes, Term::curved, Term::micro};
 
 const std::vector<std::pair<std::string, Terms>> all_presets = {{"affine", {}},
                                                                 {"localized", {Term::micro}},
@@ -208,6 +210,7 @@ UpsamplerOptions Method::options(const Law law) const
 {
   UpsamplerOptions options;
   options.microscopic = has(Term::micro);
+  options.surface     = has(Term::curved) ? Surface::curved : Surface::flat;
   if (law == Law::linear)
   {
     options.strain = Strain::linear;
@@ -231,6 +234,9 @@ UpsamplerOptions options_of(const Method &method, const Law law, const CellModel
                            who_makes_it + ", or leave the term out, as in " +
                            method.name_without(term));
   };
+  if (method.has(Term::micro) && method.has(Term::curved) && !cell.cell.bending)
+    refuse_without("deflection of a bent sheet", Term::curved,
+                   "make its cell.h5 again with `homespun homogenize`, with both stiffnesses");
   if (method.has(Term::micro) && method.has_fitted_modes(law))
   {
     if (cell.fitted == nullptr)

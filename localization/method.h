@@ -22,8 +22,10 @@ enum class Term
          ///< and is else anchored
   cubic, ///< the coarse cloth has the cell's cubic energy under the law
   modes, ///< beside chi: quadratic in strain, or fitted, as the law has them
-  micro  ///< chi, and with it modes and layers of edges; without it the fine positions are the
-         ///< coarse motion, interpolated
+  curved, ///< in space: the surface through the coarse vertices bends between them, and with micro
+          ///< has the deflection of the bent cell (localization/coarse_surface.h)
+  micro   ///< chi, and with it modes and layers of edges; without it the fine positions are the
+          ///< coarse motion, interpolated
 };
 
 std::string name_of(Term term);
@@ -40,8 +42,8 @@ public:
   ///   taken away
   explicit Method(const std::string &text);
 
-  /// Those of a study that asks for none: each preset, each term beside `localized`, and the coarse
-  /// cloths of `full`, against which up-sampling is judged.
+  /// Those of a study in the plane that asks for none: each preset, each of its terms beside
+  /// `localized`, and the coarse cloths of `full`, against which up-sampling is judged.
   static const std::vector<std::string> &defaults();
 
   /// What a name of version 0.1 is called now; empty of any other.

@@ -75,6 +75,14 @@ enum class Slip
   added     ///< nobody's: its edges lie where they are held, and up-sampling adds the slip
 };
 
+/// What lies between the coarse vertices of a cloth in space. In the plane all is flat.
+enum class Surface
+{
+  flat,  ///< the coarse triangles themselves
+  curved ///< what bends with the cloth (coarse_surface.h), and w3 of the bent cell where
+         ///< microscopic
+};
+
 struct UpsamplerOptions
 {
   bool microscopic = true; ///< false: the coarse motion interpolated, the baseline `affine`
@@ -83,6 +91,7 @@ struct UpsamplerOptions
   Anchor anchor    = Anchor::lattice;
   Blend blend      = Blend::continuous;
   Path path        = Path::automatic;
+  Surface surface  = Surface::flat;
   /// Law of the phases (`biot`, `green`) whose quadratic modes are added to chi, for errors of
   /// third order in strain: HomogenizedCell::second_order. Empty: none.
   std::string second_order;

@@ -12,17 +12,6 @@
 
 namespace homespun::localization
 {
-namespace
-{
-/// Vertices that go through a buffer at once.
-constexpr int chunk = 8 * lanes;
-
-constexpr int n_blocks_of(const int n_vertices)
-{
-  return (n_vertices + lanes - 1) / lanes;
-}
-} // namespace
-
 template <int dim, typename Scalar>
 Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
                                   const meshes::TriangleMesh &coarse_rest,
@@ -40,9 +29,17 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     throw meshes::BadInput(faults);
   const CellModes modes = cell_modes(cell, options);
   const EdgeModes near_edges(cell, options);
-  Panel panel         = panel_of(fine);
-  const auto modes_at = [&](const int v)
-  { return near_edges.added_to(modes.row(fine.cell_vertex(v)), panel, point_of(fine, v)); };
+  Panel panel = panel_of(fine);
+  BentModes bent;
+  if (dim == 3 && options.surface == Surface::curved)
+  {
+    bent = bent_modes(cell, options);
+    surface.emplace(coarse_rest);
+  }
+  const auto append = appending(
+    [&](const int v)
+    { return near_edges.added_to(modes.row(fine.cell_vertex(v)), panel, point_of(fine, v)); },
+    [&](const int v) { return bent.row(fine.cell_vertex(v)); });
   for (int t = 0; t < coarse_rest.n_triangles(); ++t)
     panel.triangles.push_back(t);
   if (options.slip == Slip::added)
@@ -51,10 +48,10 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   n_space = coarse_rest.n_vertices();
   if (const int quads = quads_per_cell(fine, coarse_rest);
       quads > 0 && options.path == Path::automatic)
-    cells.fill(fine, quads, near_edges, panel, modes_at);
-  place(modes_at, fine, cells.n_cells * cells.n_block);
+    cells.fill(fine, quads, near_edges, panel, append);
+  place(append, fine, cells.n_cells * cells.n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
-                 static_cast<std::size_t>(record_size(kind_of_modes(options))));
+                 static_cast<std::size_t>(n_numbers()));
 }
 
 template <int dim, typename Scalar>
@@ -72,16 +69,34 @@ Upsampler<dim, Scalar>::Upsampler(const PlacedVertices &placed)
   for (int v = 0; v < n_total; ++v)
     in_triangle[static_cast<std::size_t>(placed.triangle(v))].push_back(
       {v, placed.weights.row(v).transpose()});
-  tabulate(in_triangle, [&](const int v) { return placed.modes.row(v).eval(); });
+  if (dim == 3 && options.surface == Surface::curved)
+    surface.emplace(placed.coarse_rest, space_of_rest);
+  tabulate(in_triangle, appending([&](const int v) { return placed.modes.row(v).eval(); },
+                                  [&](const int v) { return placed.bent.row(v); }));
   at_rest_vertices.resize(placed.coarse_rest.n_vertices(), dim);
   records.resize(static_cast<std::size_t>(placed.coarse_rest.n_vertices()) *
-                 static_cast<std::size_t>(record_size(kind_of_modes(options))));
+                 static_cast<std::size_t>(n_numbers()));
 }
 
 template <int dim, typename Scalar>
-template <typename ModesAt>
-void Upsampler<dim, Scalar>::place(const ModesAt &modes_at, const meshes::Sheet &fine,
-                                   const int from)
+template <typename ModesAt, typename BentAt>
+auto Upsampler<dim, Scalar>::appending(const ModesAt &modes_at, const BentAt &bent_at) const
+{
+  return [this, modes_at, bent_at](VertexTable<Scalar> &table, const int v,
+                                   const meshes::Location &place)
+  {
+    table.append(place.weights, modes_at(v));
+    if (!surface)
+      return;
+    Eigen::Matrix<double, 1, 9> deflection = bent_at(v);
+    deflection.head<3>() += surface->quadric(place.triangle, place.weights);
+    table.append_deflection(deflection);
+  };
+}
+
+template <int dim, typename Scalar>
+template <typename Append>
+void Upsampler<dim, Scalar>::place(const Append &append, const meshes::Sheet &fine, const int from)
 {
   const meshes::PointLocation location(frames.rest());
   // Points on a coarse edge belong to the triangle at their upper right and below the diagonal, as
@@ -107,13 +122,13 @@ void Upsampler<dim, Scalar>::place(const ModesAt &modes_at, const meshes::Sheet 
   }
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  tabulate(in_triangle, modes_at);
+  tabulate(in_triangle, append);
 }
 
 template <int dim, typename Scalar>
-template <typename ChiAt>
+template <typename Append>
 void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in_triangle,
-                                      const ChiAt &chi_at)
+                                      const Append &append)
 {
   for (std::size_t t = 0; t < in_triangle.size(); ++t)
   {
@@ -122,7 +137,7 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
     groups.push_back({static_cast<int>(t), own.size, static_cast<int>(in_triangle[t].size())});
     for (const Member &member : in_triangle[t])
     {
-      own.append(member.weights, chi_at(member.vertex));
+      append(own, member.vertex, meshes::Location{static_cast<int>(t), member.weights});
       target.push_back(member.vertex);
     }
     own.pad();
@@ -147,6 +162,13 @@ int Upsampler<dim, Scalar>::n_fine() const
   return n_total;
 }
 
+/// Per coarse vertex, also where nothing bends.
+template <int dim, typename Scalar>
+int Upsampler<dim, Scalar>::n_numbers() const
+{
+  return record_size(kind_of_modes(options), surface ? curved_surface : flat_triangle);
+}
+
 template <int dim, typename Scalar>
 int Upsampler<dim, Scalar>::n_coarse() const
 {
@@ -161,7 +183,9 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
   {
     bytes += sizeof(Weights<Scalar>) * table.weights.size() +
              sizeof(ChiBlock<Scalar>) * (table.chi_blocks.size() + table.free_blocks.size()) +
-             sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size();
+             sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size() +
+             sizeof(DeflectionBlock<Scalar>) * table.deflection_blocks.size() +
+             sizeof(ChiBlock<Scalar>) * table.slope_blocks.size();
   };
   add(own);
   add(cells.shared);
@@ -169,168 +193,6 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
     for (const std::vector<ChiBlock<Scalar>> &blocks : *of_kind)
       bytes += sizeof(ChiBlock<Scalar>) * blocks.size();
   return bytes;
-}
-
-template <int dim, typename Scalar>
-PositionsOf<dim> Upsampler<dim, Scalar>::gathered(const PositionsOf<dim> coarse_current) const
-{
-  for (std::size_t v = 0; v < space_of_rest.size(); ++v)
-    at_rest_vertices.row(static_cast<Eigen::Index>(v)) = coarse_current.row(space_of_rest[v]);
-  return PositionsOf<dim>(at_rest_vertices.data(), at_rest_vertices.rows(), dim);
-}
-
-template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current) const
-{
-  const Eigen::Index n = coarse_current.rows();
-  const int size       = record_size(kind_of_modes(options));
-  for (Eigen::Index v = 0; v < n; ++v)
-    for (int i = 0; i < dim; ++i)
-      records[static_cast<std::size_t>(v * size + i)] = static_cast<Scalar>(coarse_current(v, i));
-  if (!options.microscopic)
-    return;
-  const auto &values = frames.values(coarse_current);
-  if (options.blend == Blend::continuous)
-    for (Eigen::Index v = 0; v < n; ++v)
-      for (int c = 0; c < frames.n_components; ++c)
-        records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
-  if (are_fitted(kind_of_modes(options)))
-    fill_fitted_records(values);
-  if (!slip.sources.empty())
-    add_slip(coarse_current);
-}
-
-template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::add_slip(const PositionsOf<dim> coarse_current) const
-{
-  const int size = record_size(kind_of_modes(options));
-  slip.evaluate(records.data(), size, moves_of_edges);
-  moves.noalias() = slip.of_sources * moves_of_edges;
-  for (Eigen::Index v = 0; v < moves.rows(); ++v)
-    for (int i = 0; i < dim; ++i)
-      records[static_cast<std::size_t>(v * size + i)] =
-        static_cast<Scalar>(coarse_current(v, i) + moves(v, i));
-}
-
-template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::fill_fitted_records(
-  const typename CoarseFrames<dim>::Values &values) const
-{
-  using meshes::FittedResponse;
-  constexpr std::size_t behind = dim + CoarseFrames<dim>::n_components, // what fitted modes add
-    of_free                    = behind + meshes::FittedModes::n_modes;
-  const auto size              = static_cast<std::size_t>(record_size(kind_of_modes(options)));
-  for (Eigen::Index first = 0; first < values.rows(); first += FittedResponse::width)
-  {
-    const Eigen::Index n = std::min<Eigen::Index>(FittedResponse::width, values.rows() - first);
-    std::array<FittedResponse::Pack, 3> strains, free;
-    for (Eigen::Index a = 0; a < 3; ++a)
-    {
-      FittedResponse::Pack &pack = strains[static_cast<std::size_t>(a)];
-      pack.setZero();
-      pack.head(n) = values.col(a).segment(first, n);
-    }
-    const auto response = fitted.at(strains);
-    for (std::size_t a = 0; a < 3; ++a)
-      free[a] = meshes::strain_of_free_edges(response[a], strains[a]);
-    for (Eigen::Index i = 0; i < n; ++i)
-    {
-      Scalar *const record = records.data() + static_cast<std::size_t>(first + i) * size;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        record[dim + k]     = static_cast<Scalar>(response[k](i));
-        record[of_free + k] = static_cast<Scalar>(free[k](i));
-      }
-      for (std::size_t k = 3; k < response.size(); ++k)
-        record[behind + k - 3] = static_cast<Scalar>(response[k](i));
-    }
-  }
-}
-
-template <int dim, typename Scalar>
-template <int terms>
-void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
-{
-  switch (kind_of_modes(options))
-  {
-  case linear_modes:
-    return run<terms, linear_modes>(fine_current);
-  case quadratic_modes:
-    return run<terms, quadratic_modes>(fine_current);
-  case fitted_modes:
-    return run<terms, fitted_modes>(fine_current);
-  case fitted_modes_and_free_edges:
-    return run<terms, fitted_modes_and_free_edges>(fine_current);
-  }
-}
-
-template <int dim, typename Scalar>
-template <int terms, int modes>
-Corners<Scalar, modes> Upsampler<dim, Scalar>::corners_at(const int triangle) const
-{
-  const auto corner = frames.rest().triangles.row(triangle);
-  auto corners =
-    corners_of<modes>(records.data(), std::array<int, 3>{corner(0), corner(1), corner(2)});
-  if constexpr (terms == constant || terms == constant_plane)
-    for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
-      corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
-  return corners;
-}
-
-template <int dim, typename Scalar>
-template <int terms, int modes>
-void Upsampler<dim, Scalar>::run_cells(Scalar *const fine_current) const
-{
-  // A run is computed in whole blocks of lanes. What it writes too much lies in runs after it,
-  // which are written later; at the end of the output it goes through a buffer.
-  Scalar buffer[chunk * dim];
-  for (int cell = 0; cell < cells.n_cells; ++cell)
-    for (std::size_t t = 0; t < cells.triangles.size(); ++t)
-    {
-      const CellTriangle &run = cells.triangles[t];
-      const int count = run.end - run.begin, first = cell * cells.n_block + run.begin,
-                row = cells.first_row[t];
-      if (count == 0)
-        continue;
-      const auto corners = corners_at<terms, modes>(coarse_triangle(
-        run.in_cell, cells.quads, cells.n_along, cell % cells.n_along, cell / cells.n_along));
-      if (first + count + lanes <= n_total)
-      {
-        fine_positions<dim, terms>(corners, cells.from(row, cell), n_blocks_of(count),
-                                   fine_current + first * dim);
-        continue;
-      }
-      for (int done = 0; done < count; done += chunk)
-      {
-        const int part = std::min(chunk, count - done);
-        fine_positions<dim, terms>(corners, cells.from(row + done, cell), n_blocks_of(part),
-                                   buffer);
-        std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
-      }
-    }
-}
-
-template <int dim, typename Scalar>
-template <int terms, int modes>
-void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
-{
-  run_cells<terms, modes>(fine_current);
-  Scalar buffer[chunk * dim];
-  for (const Group &group : groups)
-  {
-    const auto corners  = corners_at<terms, modes>(group.triangle);
-    const int *const to = target.data() + group.begin;
-    for (int done = 0; done < group.count; done += chunk)
-    {
-      const int part = std::min(chunk, group.count - done);
-      fine_positions<dim, terms>(corners,
-                                 own.from(group.begin + done, own.chi_blocks, own.free_blocks),
-                                 n_blocks_of(part), buffer);
-      for (int k = 0; k < part; ++k)
-        for (int i = 0; i < dim; ++i)
-          fine_current[to[done + k] * dim + i] = buffer[k * dim + i];
-    }
-  }
 }
 
 template <int dim, typename Scalar>
@@ -343,37 +205,42 @@ void Upsampler<dim, Scalar>::upsample(const Positions<dim> &coarse_current,
 }
 
 template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::upsample(const Positions<dim> &coarse_current, Fine &fine_current,
+                                      Fine &normals) const
+{
+  fine_current.resize(n_total, dim);
+  normals.resize(n_total, dim);
+  upsample(PositionsOf<dim>(coarse_current.data(), coarse_current.rows(), dim),
+           Eigen::Map<Fine>(fine_current.data(), n_total, dim),
+           Eigen::Map<Fine>(normals.data(), n_total, dim));
+}
+
+template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::upsample(const PositionsOf<dim> coarse_current,
                                       Eigen::Map<Fine> fine_current) const
 {
-  if (fine_current.rows() != n_total)
-    throw meshes::BadInput("fine positions: room for " + std::to_string(fine_current.rows()) +
-                           " rows; expected " + std::to_string(n_total) + ", one per fine vertex");
-  if (coarse_current.rows() != n_space)
-    throw meshes::BadInput("coarse positions: have " + std::to_string(coarse_current.rows()) +
-                           " rows; expected " + std::to_string(n_space) +
-                           ", one per coarse vertex");
-  if (!coarse_current.allFinite())
-    for (Eigen::Index v = 0; v < coarse_current.rows(); ++v)
-      if (!coarse_current.row(v).allFinite())
-        throw meshes::BadInput(
-          "coarse vertex " + std::to_string(v) +
-          ": its position is not finite; the coarse solver should have refused it");
-  fill_records(space_of_rest.empty() ? coarse_current : gathered(coarse_current));
-  const bool in_plane  = options.lift == Lift::identity || options.strain == Strain::linear;
-  const bool is_smooth = options.blend == Blend::continuous;
-  if (!options.microscopic)
-    run<affine, linear_modes>(fine_current.data());
-  else if (is_smooth && in_plane)
-    run_modes<blended_plane>(fine_current.data());
-  else if (is_smooth && dim == 2 && options.lift == Lift::rotation)
-    run_modes<dim == 2 ? blended_rotation : blended>(fine_current.data());
-  else if (is_smooth)
-    run_modes<blended>(fine_current.data());
-  else if (in_plane)
-    run_modes<constant_plane>(fine_current.data());
-  else
-    run_modes<constant>(fine_current.data());
+  check_room(fine_current.rows(), "fine positions");
+  run_frame(coarse_current, {fine_current.data(), nullptr});
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::upsample(const PositionsOf<dim> coarse_current,
+                                      Eigen::Map<Fine> fine_current, Eigen::Map<Fine> normals) const
+{
+  if (!surface)
+    throw meshes::BadInput("normals: the surface is that of flat triangles in space, or one in the "
+                           "plane; expected a curved one, of a method with the term curved");
+  check_room(fine_current.rows(), "fine positions");
+  check_room(normals.rows(), "normals");
+  run_frame(coarse_current, {fine_current.data(), normals.data()});
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::check_room(const Eigen::Index n_rows, const std::string &name) const
+{
+  if (n_rows != n_total)
+    throw meshes::BadInput(name + ": room for " + std::to_string(n_rows) + " rows; expected " +
+                           std::to_string(n_total) + ", one per fine vertex");
 }
 
 template class Upsampler<2, float>;

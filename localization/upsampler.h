@@ -25,6 +25,7 @@
 #include "localization/cell_modes.h"
 #include "localization/cell_tables.h"
 #include "localization/coarse_frames.h"
+#include "localization/coarse_surface.h"
 #include "localization/edge_modes.h"
 #include "localization/kernel.h"
 #include "localization/options.h"
@@ -34,6 +35,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace homespun::localization
@@ -48,6 +51,7 @@ struct PlacedVertices
   Eigen::VectorXi triangle;         ///< (n) coarse triangle of each fine vertex
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> weights; ///< (n,3) barycentric
   CellModes modes; ///< of each vertex, those of edges among them [m]
+  BentModes bent;  ///< the same of a bent cell, where the surface is curved
   EdgeSlip slip;   ///< where it is added
 };
 
@@ -62,7 +66,8 @@ public:
   using Fine = Eigen::Matrix<Scalar, Eigen::Dynamic, dim, Eigen::RowMajor>;
 
   /// Places the fine vertices on the coarse mesh.
-  /// @param cell homogenized cell whose chi is superposed; its stiffness is not used
+  /// @param cell homogenized cell whose chi is superposed, and of a curved surface its deflection;
+  ///   its stiffness is not used
   /// @param coarse_rest coarse mesh at rest, in the plane of the sheet
   /// @param fine resolved sheet of that cell
   /// @throws BadInput where the coarse mesh is not sound or does not hold a fine vertex (which is
@@ -94,6 +99,14 @@ public:
   /// @throws BadInput where there is no room for (n_fine,dim)
   void upsample(PositionsOf<dim> coarse_current, Eigen::Map<Fine> fine_current) const;
 
+  /// The same with the unit normals of the curved surface, slopes of the deflection of the bent
+  /// cell among them.
+  /// @param normals (n_fine,3); zero where the coarse cloth is collapsed
+  /// @throws BadInput where the surface is flat
+  void upsample(PositionsOf<dim> coarse_current, Eigen::Map<Fine> fine_current,
+                Eigen::Map<Fine> normals) const;
+  void upsample(const Positions<dim> &coarse_current, Fine &fine_current, Fine &normals) const;
+
   /// Bytes of the constants that a frame reads, for benchmarks.
   std::size_t table_bytes() const;
 
@@ -111,22 +124,30 @@ private:
     Eigen::Vector3d weights;
   };
 
-  template <typename ModesAt>
-  void place(const ModesAt &modes_at, const meshes::Sheet &fine, int from);
-  template <typename ChiAt>
-  void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ChiAt &chi_at);
+  template <typename Append>
+  void place(const Append &append, const meshes::Sheet &fine, int from);
+  template <typename Append>
+  void tabulate(const std::vector<std::vector<Member>> &in_triangle, const Append &append);
+  template <typename ModesAt, typename BentAt>
+  auto appending(const ModesAt &modes_at, const BentAt &bent_at) const;
+  void run_frame(PositionsOf<dim> coarse_current, const FineRows<Scalar> &to) const;
   PositionsOf<dim> gathered(PositionsOf<dim> coarse_current) const;
   void fill_records(PositionsOf<dim> coarse_current) const;
   void fill_fitted_records(const typename CoarseFrames<dim>::Values &values) const;
   void add_slip(PositionsOf<dim> coarse_current) const;
+  void check_room(Eigen::Index n_rows, const std::string &name) const;
+  int n_numbers() const;
+  void add_surface(PositionsOf<3> coarse_current) const;
   template <int terms, int modes>
-  void run(Scalar *fine_current) const;
+  void run_surface(const FineRows<Scalar> &to) const;
+  template <int terms, int modes, int between>
+  void run(const FineRows<Scalar> &to) const;
   template <int terms>
-  void run_modes(Scalar *fine_current) const;
-  template <int terms, int modes>
-  void run_cells(Scalar *fine_current) const;
-  template <int terms, int modes>
-  Corners<Scalar, modes> corners_at(int triangle) const;
+  void run_modes(const FineRows<Scalar> &to) const;
+  template <int terms, int modes, int between>
+  void run_cells(const FineRows<Scalar> &to) const;
+  template <int terms, int modes, int between>
+  Corners<Scalar, record_size(modes, between)> corners_at(int triangle) const;
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;
@@ -141,6 +162,7 @@ private:
   meshes::FittedResponse fitted;           ///< where the options take fitted modes
   mutable Positions<dim> moves_of_edges, moves; ///< by slip, of its sources and coarse vertices
   EdgeSlip slip;                                ///< where it is added
+  std::optional<CoarseSurface> surface;         ///< where it is curved
   mutable std::vector<Scalar> records;          ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization

@@ -53,6 +53,10 @@ std::vector<std::string> mode_faults(const UpsamplerOptions &options)
     faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
                      " are asked for with the linear strain; expected Strain::biot, whose second "
                      "order they are");
+  if (options.surface == Surface::curved && options.microscopic &&
+      (options.lift == Lift::identity || options.blend != Blend::continuous))
+    faults.emplace_back("up-sampling: a curved surface is asked for with Lift::identity or "
+                        "Blend::piecewise; expected neither");
   if (options.fitted == nullptr)
     return faults;
   if (options.strain == Strain::linear)

@@ -19,7 +19,9 @@ struct VertexTable
   std::vector<ChiBlock<Scalar>> chi_blocks;
   std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty where all modes are linear
   std::vector<ChiBlock<Scalar>> free_blocks; ///< empty but with fitted_modes_and_free_edges
-  int size = 0;                              ///< rows, padding included
+  std::vector<DeflectionBlock<Scalar>> deflection_blocks; ///< empty but of curved surfaces
+  std::vector<ChiBlock<Scalar>> slope_blocks;             ///< the same
+  int size = 0;                                           ///< rows, padding included
 
   /// @param barycentric coordinates in the coarse triangle
   /// @param modes of the cell at the vertex: the six columns of chi, and where they are taken the
@@ -57,6 +59,22 @@ struct VertexTable
     }
   }
 
+  /// What a vertex that was appended has of a curved surface.
+  /// @param deflection per unit curvature (3) [m^2], then the slopes of w_a, column 2 a + c (6) [m]
+  void append_deflection(const Eigen::Matrix<double, 1, 9> &deflection)
+  {
+    const int lane = (size - 1) % lanes;
+    if (lane == 0)
+    {
+      deflection_blocks.push_back({});
+      slope_blocks.push_back({});
+    }
+    for (int k = 0; k < 3; ++k)
+      deflection_blocks.back().column[k][lane] = static_cast<Scalar>(deflection(k));
+    for (int k = 0; k < 6; ++k)
+      slope_blocks.back().column[k][lane] = static_cast<Scalar>(deflection(3 + k));
+  }
+
   /// The constants from a row on with which a block begins.
   /// @param chi, free that are taken: those of the table, or others of the same vertices
   Blocks<Scalar> from(const int row, const std::vector<ChiBlock<Scalar>> &chi,
@@ -65,7 +83,9 @@ struct VertexTable
     const auto block     = static_cast<std::size_t>(row / lanes);
     const auto beginning = [block](const auto &blocks)
     { return blocks.empty() ? nullptr : blocks.data() + block; };
-    return {beginning(weights), beginning(chi), beginning(quadratic_blocks), beginning(free)};
+    return {beginning(weights),           beginning(chi),
+            beginning(quadratic_blocks),  beginning(free),
+            beginning(deflection_blocks), beginning(slope_blocks)};
   }
 
   /// Ends a group.

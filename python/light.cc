@@ -111,32 +111,42 @@ std::unique_ptr<CellUpsampler> over_garment(const HomogenizedCell &cell, const L
                       [placed]() { return std::make_unique<Upsampler<2, double>>(placed()); }});
 }
 
+/// @param normals to be filled, or None
 template <int dim, typename Scalar>
 py::object upsampled(const Upsampler<dim, Scalar> &upsampler, const py::object &positions,
-                     py::object out)
+                     py::object out, const py::object &normals)
 {
+  using Fine = typename Upsampler<dim, Scalar>::Fine;
   if (out.is_none())
     out = py::array_t<Scalar>({static_cast<py::ssize_t>(upsampler.n_fine()), py::ssize_t(dim)});
   const Taken<localization::Positions<dim>> coarse(positions, "positions");
-  const auto fine = room_in<typename Upsampler<dim, Scalar>::Fine>(out, "out");
+  const auto fine = room_in<Fine>(out, "out");
+  if (normals.is_none())
   {
     const py::gil_scoped_release others_run;
     upsampler.upsample(*coarse, fine);
+    return out;
+  }
+  const auto room = room_in<Fine>(normals, "normals");
+  {
+    const py::gil_scoped_release others_run;
+    upsampler.upsample(*coarse, fine, room);
   }
   return out;
 }
 
-py::object upsample(CellUpsampler &upsampler, const py::object &positions, const py::object &out)
+py::object upsample(CellUpsampler &upsampler, const py::object &positions, const py::object &out,
+                    const py::object &normals)
 {
   const py::array given = py::array::ensure(positions);
   if (!given || given.ndim() != 2 || given.shape(1) != 2)
-    return upsampled(upsampler.in_space, positions, out);
+    return upsampled(upsampler.in_space, positions, out, normals);
   if (!upsampler.in_plane)
   {
     const py::gil_scoped_release others_run;
     upsampler.in_plane = upsampler.make_in_plane();
   }
-  return upsampled(*upsampler.in_plane, positions, out);
+  return upsampled(*upsampler.in_plane, positions, out, normals);
 }
 
 void declare_sheet(py::module_ &module)
@@ -213,9 +223,11 @@ void declare_upsampler(py::module_ &module)
       "terms", [](const CellUpsampler &of) { return of.used.term_names(); },
       "Terms of the method that are used here.")
     .def("upsample", &upsample, py::arg("positions"), py::arg("out") = py::none(),
+         py::arg("normals") = py::none(),
          "Fine positions (n_fine, 3) float32 of the coarse positions (n_coarse, 3) float64 [m]; in "
          "the plane, of (n_coarse, 2), (n_fine, 2) float64, as `homespun strain` compares them. "
-         "Neither is copied; with `out` nothing is allocated.")
+         "Neither is copied; with `out` nothing is allocated. `normals` (n_fine, 3) float32 is "
+         "filled with unit normals, of a method with the term curved.")
     .def("__repr__",
          [](const CellUpsampler &of)
          {

@@ -39,13 +39,46 @@ PanelPoint point_of(const meshes::HomogenizedCell &cell, const meshes::TriangleM
   return result;
 }
 
+/// Rows of the cell's vertices at a place.
+template <typename Row, typename Rows>
+Row at_place(const Rows &of_cell, const PanelPoint &place)
+{
+  Row here = place.weights(0) * of_cell.row(place.corners[0]);
+  for (std::size_t k = 1; k < 3; ++k)
+    here += place.weights(static_cast<Eigen::Index>(k)) * of_cell.row(place.corners[k]);
+  return here;
+}
+
+/// By what the modes of a fine vertex fade towards seams.
+double fade_at(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fine, const int v,
+               const UpsamplerOptions &options)
+{
+  const double fade = options.seam_fade * std::sqrt(cell.lattice.area());
+  return fine.seam_distance(v) < fade ? smooth_step(fine.seam_distance(v) / fade) : 1.;
+}
+
+/// Modes of the bent cell at the fine vertices.
+BentModes bent_modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fine,
+                                const std::vector<Panel> &panels, const PlacedVertices &placed)
+{
+  const BentModes of_cell = bent_modes(cell, placed.options);
+  BentModes result(fine.n_vertices(), 9);
+  for (int v = 0; v < fine.n_vertices(); ++v)
+  {
+    const Panel &panel = panels[static_cast<std::size_t>(fine.panel(v))];
+    result.row(v)      = fade_at(cell, fine, v, placed.options) *
+                    at_place<Eigen::Matrix<double, 1, 9>>(
+                      of_cell, point_of(cell, placed.coarse_rest, panel, fine, v));
+  }
+  return result;
+}
+
 /// Modes at the fine vertices.
 /// @param placed all but these
 CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fine,
                            const std::vector<Panel> &panels, const PlacedVertices &placed)
 {
   const UpsamplerOptions &options = placed.options;
-  const double fade               = options.seam_fade * std::sqrt(cell.lattice.area());
   const EdgeModes near_edges(cell, options);
   // A panel without edges on lattice lines is as without edges.
   UpsamplerOptions plain = options;
@@ -58,16 +91,8 @@ CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::Fi
     const Panel &panel       = panels[static_cast<std::size_t>(fine.panel(v))];
     const CellModes &of_cell = panel.edges.empty() ? without : with_edges;
     const PanelPoint place   = point_of(cell, placed.coarse_rest, panel, fine, v);
-    ModesRow here            = of_cell.row(place.corners[0]);
-    if (fine.cell_vertex(v) < 0)
-    {
-      here.setZero();
-      for (std::size_t k = 0; k < 3; ++k)
-        here += place.weights(static_cast<Eigen::Index>(k)) * of_cell.row(place.corners[k]);
-    }
-    here = near_edges.added_to(here, panel, place);
-    if (const double distance = fine.seam_distance(v); distance < fade)
-      here *= smooth_step(distance / fade);
+    const ModesRow here      = fade_at(cell, fine, v, options) *
+                          near_edges.added_to(at_place<ModesRow>(of_cell, place), panel, place);
     if (v == 0)
       result.resize(fine.n_vertices(), here.size());
     result.row(v) = here;
@@ -111,6 +136,8 @@ PlacedVertices placed_garment(const meshes::HomogenizedCell &cell, const meshes:
   placed.triangle      = fine.coarse_triangle;
   placed.weights       = fine.coarse_weights;
   placed.modes         = modes_of_garment(cell, fine, panels, placed);
+  if (options.surface == Surface::curved)
+    placed.bent = bent_modes_of_garment(cell, fine, panels, placed);
   if (options.slip == Slip::added)
     placed.slip = sewn(EdgeModes(cell, options).slip_of(panels, placed.coarse_rest),
                        {placed.space_of_rest.begin(), placed.space_of_rest.end()});

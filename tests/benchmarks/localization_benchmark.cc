@@ -32,6 +32,8 @@ meshes::HomogenizedCell smooth_cell(const int n1, const int n2)
   meshes::SecondOrder &second = cell.second_order["biot"];
   second.chi.resize(cell.mesh.n_vertices(), 12);
   second.chi << cell.chi, -cell.chi;
+  cell.bending =
+    meshes::CellBendingModes{Eigen::Matrix3d::Identity(), 1e-2 * cell.chi.leftCols<3>()};
   return cell;
 }
 
@@ -60,6 +62,13 @@ meshes::CellEdges edges_of(const meshes::HomogenizedCell &cell, const int reach)
   return edges;
 }
 
+/// What a frame writes of a surface that is curved.
+enum class Written
+{
+  positions,
+  positions_and_normals
+};
+
 /// Quads of the coarse mesh along a side of a cell, and whether edges have modes.
 struct Around
 {
@@ -67,6 +76,7 @@ struct Around
   bool edges         = false;
   bool fitted        = false; ///< modes
   int reach          = 2;     ///< of the modes of edges, in cells
+  Written written    = Written::positions;
 };
 
 template <int dim>
@@ -88,16 +98,21 @@ Positions<dim> bent(const meshes::TriangleMesh &coarse)
 /// @return bytes that a frame writes
 template <int dim, typename Scalar>
 double run_frames(benchmark::State &state, const Upsampler<dim, Scalar> &upsampler,
-                  const Positions<dim> &current)
+                  const Positions<dim> &current, const Written written = Written::positions)
 {
-  typename Upsampler<dim, Scalar>::Fine fine;
-  const double n = upsampler.n_fine(), bytes = n * dim * sizeof(Scalar);
+  typename Upsampler<dim, Scalar>::Fine fine, normals;
+  const bool has_normals = written == Written::positions_and_normals;
+  const double n = upsampler.n_fine(), bytes = (has_normals ? 2 : 1) * n * dim * sizeof(Scalar);
   const double copied = benchmarks::copy_bandwidth(static_cast<std::size_t>(bytes));
   const double begin  = benchmarks::seconds();
   for (auto _ : state)
   {
-    upsampler.upsample(current, fine);
+    if (has_normals)
+      upsampler.upsample(current, fine, normals);
+    else
+      upsampler.upsample(current, fine);
     benchmark::DoNotOptimize(fine.data());
+    benchmark::DoNotOptimize(normals.data());
     benchmark::ClobberMemory();
   }
   const double of_one = (benchmarks::seconds() - begin) / static_cast<double>(state.iterations());
@@ -128,7 +143,7 @@ void upsample(benchmark::State &state, UpsamplerOptions options, const double fl
   if (around.fitted)
     options.fitted = &fitted;
   const Upsampler<dim, Scalar> upsampler(cell, coarse, sheet, options);
-  const double bytes = run_frames(state, upsampler, bent<dim>(coarse));
+  const double bytes = run_frames(state, upsampler, bent<dim>(coarse), around.written);
   const double flops = sheet.mesh.n_vertices() * flops_per_vertex;
   const auto rate    = [&](const double amount)
   { return benchmark::Counter(amount, benchmark::Counter::kIsIterationInvariantRate); };
@@ -213,6 +228,12 @@ UpsamplerOptions general_of_second_order()
   return options;
 }
 
+UpsamplerOptions curved(UpsamplerOptions options = {})
+{
+  options.surface = Surface::curved;
+  return options;
+}
+
 UpsamplerOptions in_plane()
 {
   UpsamplerOptions options;
@@ -252,6 +273,15 @@ void add_upsampling(const std::string &type)
   add("piecewise", piecewise(), 6 + 4 * dim);
   add("without_modes", without_modes(), 2 * dim);
   add("general_without_modes", general_without_modes(), 2 * dim);
+  if (dim == 3)
+  {
+    // Beside `aligned`: K and n 12, z 3, x 3; duals 12, slopes 6, the normal 6 and its length 6.
+    const Around normals = {1, false, false, 2, Written::positions_and_normals};
+    add("curved", curved(), 12 + 8 * dim + 18);
+    add("curved_normals", curved(), 12 + 8 * dim + 48, normals);
+    add("curved_normals_general", curved(general()), 12 + 8 * dim + 48, normals);
+    add("curved_without_modes", curved(without_modes()), 2 * dim + 18);
+  }
   if (dim == 2)
     add("linear_strain", in_plane(), 12 + 2 * dim + 1);
 }

@@ -94,6 +94,34 @@ class Methods(WithFolder):
             numpy.testing.assert_array_equal(found.triangles, sheet.triangles)
             self.assertEqual("edges" in upsampler.terms, method in ("full", "localized+edges"))
 
+    def test_a_rolled_sheet_is_met_between_its_coarse_vertices_with_its_normals(self):
+        cell = homespun.homogenize(CELLS / "layered.prm", bars=False)
+        sheet = homespun.Sheet(cell, 8, 3)
+        radius = 5. * cell.lattice[0, 0]
+
+        def rolled(points):
+            angle = points[:, 0] / radius
+            return (numpy.column_stack([radius * numpy.sin(angle), points[:, 1],
+                                        radius * (1. - numpy.cos(angle))]),
+                    numpy.column_stack([-numpy.sin(angle), 0. * angle, numpy.cos(angle)]))
+
+        moved = rolled(sheet.coarse_vertices)[0]
+        exact, exact_normals = rolled(sheet.vertices)
+        flat = homespun.Upsampler(cell, sheet, method="affine").upsample(moved)
+        upsampler = homespun.Upsampler(cell, sheet, method="affine+curved")
+        self.assertEqual(upsampler.terms, ["curved"])
+        normals = numpy.empty((upsampler.n_fine, 3), dtype=numpy.float32)
+        fine = upsampler.upsample(moved, normals=normals)
+        # kappa H^2 / 8; third order, of H / radius = 1/5.
+        self.assertGreater(numpy.abs(flat - exact).max(), 0.9 * radius / 200.)
+        self.assertLess(numpy.abs(fine - exact).max(), 0.05 * radius / 200.)
+        self.assertLess(numpy.abs(normals - exact_normals).max(), 4e-3)  # (H / radius)^3 / 2
+        localized = homespun.Upsampler(cell, sheet)
+        with self.assertRaisesRegex(ValueError, "normals: the surface is that of flat triangles"):
+            localized.upsample(moved, normals=normals)
+        with self.assertRaisesRegex(ValueError, "no deflection of a bent sheet"):
+            homespun.Upsampler(cell, sheet, method="localized+curved")
+
     def test_a_mesh_of_any_shape_takes_modes_and_no_edges(self):
         cell = homespun.homogenize(CELLS / "layered.prm", bars=False)
         rest = numpy.array([[0., 0.], [0.03, 0.], [0.032, 0.02], [0.001, 0.021]])
@@ -132,7 +160,8 @@ class Methods(WithFolder):
         self.assertEqual(told, [
             "method full-p2-cubic: edges have layers at left (free) of panel 0; bottom (held) of "
             "panel 0; top (free) of panel 0; none along the 0 % of the outlines that are sewn and "
-            "the 23 % that lie on no lattice line"])
+            "the 23 % that lie on no lattice line; curved is left out, because the cell has no "
+            "deflection of a bent sheet"])
         self.assertEqual(upsampler.terms, ["edges", "modes", "micro"])
         moved = numpy.column_stack([rest * [1.05, 0.97], numpy.zeros(4)])
         fine = upsampler.upsample(moved)

@@ -71,7 +71,8 @@ void DrapeCommand::add(CommandLine &line)
            "before 20 %, else biot)");
   add_list(*command, "--methods", study.methods,
            "Methods of up-sampling, as in `homespun strain --help`; those with the terms p2,\n"
-           "cubic or edges (of a scene with the term selvedge) move coarse cloths of their own");
+           "cubic or edges (of a scene with the term selvedge) move coarse cloths of their own;\n"
+           "curved (of a scene with the term bending) bends between their vertices");
   command->add_option("--cells", study.n_cells, "Cells per side of a sheet, instead of the scene's")
     ->check(CLI::Range(1, 400));
   command->add_option("--time-step", study.time_step, "[s], instead of the scene's");

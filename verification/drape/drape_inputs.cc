@@ -63,7 +63,7 @@ void check_methods(const DrapeOptions &options, const Scene &scene,
                                   "expected one with the term edges among --methods, like full, or "
                                   "a scene without the term");
   for (const std::string &name : options.methods)
-    for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
+    for (const Term term : terms_of_scenes)
       if (const std::string why = why_not(term, scene); Method(name).asks_for(term) && !why.empty())
         faults.push_back("--methods " + name + ": scene `" + scene.name + why);
 }

@@ -152,11 +152,14 @@ private:
     for (const std::string &name : options.methods)
     {
       const Method method(name), used = draped.used(method);
-      for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
+      for (const Term term : terms_of_scenes)
         if (const std::string why = why_not(term, scene, draped.law);
             method.has(term) && !used.has(term))
           drape.note(draped.cell.name + ": method " + name + " without " + name_of(term) +
-                     (why.empty() ? ": " + why_no_edges : ": scene `" + scene.name + why));
+                     (why.empty() ? term == Term::curved
+                                      ? ": the cell has no deflection of a bent sheet"
+                                      : ": " + why_no_edges
+                                  : ": scene `" + scene.name + why));
     }
   }
 

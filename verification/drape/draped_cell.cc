@@ -63,6 +63,11 @@ std::string why_not(const Term term, const Scene &scene, const std::optional<Law
 {
   if (term == Term::micro)
     return {};
+  if (term == Term::curved)
+    return scene.has("bending")
+             ? std::string()
+             : "` does not list `bending` among its `Terms`; expected it there: without it the "
+               "curvature of the coarse cloth is that of wrinkles as fine as its mesh";
   if (!scene.is_sheet() && term != Term::modes)
     return "` is a garment, " +
            std::string(term == Term::edges ? "whose coarse cloth has no terms of edges"
@@ -90,7 +95,7 @@ std::string why_not(const Term term, const Scene &scene, const std::optional<Law
 Method used_in(const Scene &scene, const Method &method, const std::optional<Law> law)
 {
   Method left = method;
-  for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
+  for (const Term term : terms_of_scenes)
     if (!why_not(term, scene, law).empty())
       left = left.without(term);
   return left;
@@ -239,14 +244,17 @@ Method DrapedCell::used(const Method &method) const
   Method left = used_in(scene, method, law);
   if (!edges)
     left = left.without(Term::edges);
-  for (const Term term : {Term::edges, Term::cubic, Term::modes})
+  if (!homogenized.bending && left.has(Term::micro))
+    left = left.without(Term::curved);
+  for (const Term term : {Term::edges, Term::cubic, Term::modes, Term::curved})
     if (method.asks_for(term) && !left.has(term))
-      throw meshes::BadInput("--methods " + method.name + ": scene `" + scene.name +
-                             (why_not(term, scene, law).empty()
-                                ? "`: the cell " + cell.name +
-                                    " has no terms of edges; expected "
-                                    "one that has: leave them out"
-                                : why_not(term, scene, law)));
+      throw meshes::BadInput(
+        "--methods " + method.name + ": scene `" + scene.name +
+        (why_not(term, scene, law).empty()
+           ? "`: the cell " + cell.name + " has no " +
+               (term == Term::curved ? "deflection of a bent sheet" : "terms of edges") +
+               "; expected one that has: leave them out"
+           : why_not(term, scene, law)));
   return left;
 }
 

@@ -12,6 +12,7 @@
 #include "verification/law/laws.h"
 #include "verification/method/coarse_parts.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ namespace homespun::verification
 {
 using Upsampler3f = ClothUpsampler<float>;
 using Upsampler3d = ClothUpsampler<double>;
+
+/// The terms of which a scene may have no use.
+constexpr std::array<Term, 5> terms_of_scenes = {Term::p2, Term::edges, Term::cubic, Term::modes,
+                                                 Term::curved};
 
 /// Why a scene has no use for a term under a law of the coarse cloth, a clause behind its name;
 /// empty where it has. Without a law, under any.

@@ -14,8 +14,9 @@ using localization::Method;
 using localization::Term;
 using meshes::Law;
 
-/// A method without what has no meaning under a law and load. In an infinite cloth there are no
-/// edges, and the motion of the coarse cloth is given: without micro nothing but `affine` is left.
+/// A method without what has no meaning under a law and load. Loads act in the plane, where no
+/// surface is curved. In an infinite cloth there are no edges, and the motion of the coarse cloth
+/// is given: without micro nothing but `affine` is left.
 Method under(const Method &method, Law law, const Load &load);
 
 /// The methods of a list that differ under a law and load: of those with the same terms the first,

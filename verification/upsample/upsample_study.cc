@@ -54,6 +54,12 @@ constexpr std::array<Indicator, 3> indicators = {
    {"compression", &TriangleIndicators::compression,
     "1 - smallest principal stretch, where that is below 1: slack cloth wrinkles below the mesh"}}};
 
+/// The fine cloth of a frame; normals where the surface is curved and a file takes them.
+struct FineFrame
+{
+  meshes::FloatPoints positions, normals;
+};
+
 class UpsampleStudy
 {
 public:
@@ -234,13 +240,18 @@ private:
     if (const std::string fault = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
         !fault.empty())
       throw meshes::BadInput(fault);
-    meshes::FloatPoints positions;
-    seconds["upsample"].push_back(
-      seconds_of([&]() { fine->upsampler->upsample(mesh.positions, positions); }));
+    FineFrame found;
+    const bool has_normals = fine->method.used.has(localization::Term::curved) && has_format("ply");
+    seconds["upsample"].push_back(seconds_of(
+      [&]()
+      {
+        has_normals ? fine->upsampler->upsample(mesh.positions, found.positions, found.normals)
+                    : fine->upsampler->upsample(mesh.positions, found.positions);
+      }));
     if (cache)
-      seconds["write_pc2"].push_back(seconds_of([&]() { cache->append(positions); }));
+      seconds["write_pc2"].push_back(seconds_of([&]() { cache->append(found.positions); }));
     if (animation)
-      seconds["write_usda"].push_back(seconds_of([&]() { animation->append(positions); }));
+      seconds["write_usda"].push_back(seconds_of([&]() { animation->append(found.positions); }));
     if (is_there)
       return;
     TriangleIndicators values;
@@ -249,7 +260,7 @@ private:
     for (const std::string &format : options.formats)
       if (!is_of_all_frames(format))
         seconds["write_" + format].push_back(
-          seconds_of([&]() { write(path_of(frame.name, format), format, positions, values); }));
+          seconds_of([&]() { write(path_of(frame.name, format), format, found, values); }));
     // What a run that was killed, or another file of this name, has left.
     table->keep([&](const UpsampleRow &row) { return row.frame != frame.name; });
     for (const Indicator &indicator : indicators)
@@ -271,12 +282,15 @@ private:
                                           : std::numeric_limits<double>::quiet_NaN();
   }
 
-  void write(const std::string &path, const std::string &format,
-             const meshes::FloatPoints &positions, const TriangleIndicators &values) const
+  void write(const std::string &path, const std::string &format, const FineFrame &found,
+             const TriangleIndicators &values) const
   {
+    const meshes::FloatPoints &positions = found.positions;
     if (format == "ply")
       meshes::write_ply(path, positions, fine->triangles, fine->look,
-                        localization::vertex_normals<float>(positions, fine->triangles));
+                        found.normals.rows() > 0
+                          ? found.normals
+                          : localization::vertex_normals<float>(positions, fine->triangles));
     else if (format == "obj")
       meshes::write_obj(path, positions.cast<double>(), fine->triangles);
     else

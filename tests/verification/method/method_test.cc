@@ -68,18 +68,24 @@ TEST(exact_method, a_law_and_a_load_leave_what_has_a_meaning)
 {
   const Method full("full");
   const Load sheet("shear-frame"), infinite("uniaxial-1");
-  for (const auto &[law, terms] : std::vector<std::pair<Law, std::string>>{
-         {Law::linear, "cubic and modes"}, {Law::biot, ""}, {Law::green, ""}, {Law::yarn, "cubic"}})
+  for (const auto &[law, terms] :
+       std::vector<std::pair<Law, std::string>>{{Law::linear, "cubic, modes and curved"},
+                                                {Law::biot, "curved"},
+                                                {Law::green, "curved"},
+                                                {Law::yarn, "cubic and curved"}})
   {
     EXPECT_EQ(full.beyond(under(full, law, sheet)), terms) << name_of(law);
-    EXPECT_EQ(full.under(law).beyond(under(full, law, infinite)), "p2 and edges") << name_of(law);
+    EXPECT_EQ(full.under(law).beyond(under(full, law, infinite)), "p2, edges and curved")
+      << name_of(law);
   }
-  EXPECT_EQ(full.beyond(Method("affine")), "p2, edges, cubic, modes and micro");
+  EXPECT_EQ(full.beyond(Method("affine")), "p2, edges, cubic, modes, curved and micro");
   EXPECT_TRUE(full.has_fitted_modes(Law::yarn));
   EXPECT_FALSE(full.has_fitted_modes(Law::biot));
   EXPECT_EQ(full.options(Law::green).second_order, "green");
   EXPECT_EQ(full.options(Law::yarn).second_order, "");
   EXPECT_EQ(Method("localized").options(Law::green).second_order, "");
+  EXPECT_EQ(full.options(Law::biot).surface, localization::Surface::curved);
+  EXPECT_EQ(Method("localized+modes").options(Law::biot).surface, localization::Surface::flat);
 }
 
 // `-micro` sets to zero what is added to the coarse motion, and leaves all that moves the coarse

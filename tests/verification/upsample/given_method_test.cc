@@ -174,12 +174,24 @@ TEST(exact_given_method, the_slip_of_one_held_edge_moves_the_whole_sheet_and_tur
 
 TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refused)
 {
-  const meshes::HomogenizedCell cell = cell_of("layered", false);
+  meshes::HomogenizedCell cell = cell_of("layered", false);
+  const std::string no_curve =
+    "curved is left out, because the cell has no deflection of a bent sheet";
   const auto left_out = [&](const char *const method, const std::vector<std::string> &held,
                             const std::vector<Panel> &panels = {}) {
     return on_given(Method(method), cell, {held, Slip::added, panels}).left_out;
   };
   EXPECT_EQ(left_out("localized+modes", {}), "");
+  EXPECT_EQ(left_out("full-p2-cubic", {"none"}), "method full-p2-cubic: " + no_curve);
+  EXPECT_EQ(left_out("full-p2", {"none"}),
+            "method full-p2: cubic belongs to the coarse cloth, which is yours; " + no_curve);
+  EXPECT_EQ(left_out("affine+curved", {}), ""); // of the coarse cloth alone
+  // Without the deflection all is as without the term.
+  EXPECT_EQ(on_given(Method("full"), cell, {{"top"}, Slip::added, {}}).options.surface,
+            localization::Surface::flat);
+  cell.bending.emplace();
+  EXPECT_EQ(on_given(Method("full"), cell, {{"top"}, Slip::added, {}}).options.surface,
+            localization::Surface::curved);
   EXPECT_EQ(left_out("full-p2-cubic", {"none"}), "");
   EXPECT_EQ(left_out("full", {"top"}),
             "method full: p2 and cubic belong to the coarse cloth, which is yours");
@@ -211,7 +223,8 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
   EXPECT_EQ(left_out("full-p2-cubic", {"top"}, panels), ""); // there is nothing without
 
   meshes::HomogenizedCell old = cell;
-  const auto refused          = [&](const char *const method, const std::vector<std::string> &held)
+  old.bending.reset();
+  const auto refused = [&](const char *const method, const std::vector<std::string> &held)
   {
     return tests::refusal(
       [&]()
@@ -222,6 +235,8 @@ TEST(tripwire_given_method, what_has_no_meaning_is_said_and_what_is_missing_refu
   };
   EXPECT_NE(refused("affine+modes", {}).find("expected localized+modes"), std::string::npos);
   EXPECT_NE(refused("localized+edges", {}).find("there are no terms of edges, because `held`"),
+            std::string::npos);
+  EXPECT_NE(refused("localized+curved", {}).find("the cell has no deflection of a bent sheet"),
             std::string::npos);
   EXPECT_NE(refused("full", {"upper"}).find("held: found `upper`; expected"), std::string::npos);
   EXPECT_NE(refused("full", {"none", "top"}).find("held: found `none`"), std::string::npos);

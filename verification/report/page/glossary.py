@@ -24,7 +24,7 @@ GLOSSARY = (
     ("localized", "up-sampling as the paper has it: affine plus χ times the strain of the coarse"
      " triangle, blended between triangles"),
     ("full", "the default: all terms that have a meaning under the law and load: p2, edges,"
-     " cubic, modes and micro. Other methods are named by what is added or taken away:"
+     " cubic, modes, curved and micro. Other methods are named by what is added or taken away:"
      " `localized+p2`, `full-micro`"),
     ("base", "the coarse cloth of a method, not up-sampled: of `full` the better of `full-micro` and"
      " `affine+p2`, load by load and strain by strain; of `localized` it is `affine`"),
@@ -33,6 +33,8 @@ GLOSSARY = (
     ("cubic", "a term: the coarse cloth has the cubic energy of the cell beside C^H"),
     ("modes", "a term: χ is joined by six modes for the products of macro strains; in cloths of"
      " yarns by modes that are fitted over the strains of the study, and the box is among the notes"),
+    ("curved", "a term of cloths that bend: between its vertices the coarse cloth is a quadric of the"
+     " curvature there, and with micro it has the deflection of the bent cell"),
     ("micro", "a term: χ and all that goes with it; without it the coarse motion is interpolated"),
     ("edges", "a term: what clamped and free edges of the sheet do: the slip of a clamped"
      " edge, the tension of a free one, and displacements that decay from both inwards; χ has mean"
