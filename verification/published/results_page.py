@@ -225,7 +225,8 @@ def page(tables):
         " strain at which the law loses ellipticity.\n",
         *lost(rows),
         *section(tables["peers.csv"]),
-        *(bent_section.section(tables["bending.csv"]) if "bending.csv" in tables else []),
+        *(bent_section.section(tables["bending.csv"], names_of(SOURCES))
+          if "bending.csv" in tables else []),
         "## Guaranteed brackets on C^H\n",
         "Width: the largest difference of the two bounds on the energy, over all macro strains, divided by"
         " the upper one. Mesh: the shipped one, or where arcs are drawn the one that resolves them;"

@@ -342,7 +342,7 @@ private:
     return "strain: cell " + valid->cell + " was found valid " +
            (valid->is_open ? "at least up to " : "up to ") + short_text(valid->strain) +
            " (mean error of " + valid->method +
-           (localization::Method(valid->method).has_terms_of(fine->method.used)
+           (are_alike_in_a_plane(localization::Method(valid->method), fine->method.used)
               ? ""
               : ", not of what " + options.method + " has here,") +
            " within " + short_text(100. * valid->limit) + " % of the cell side against " +

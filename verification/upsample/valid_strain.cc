@@ -84,6 +84,12 @@ std::string other_cell(const meshes::HomogenizedCell &cell, const std::string &f
 }
 } // namespace
 
+bool are_alike_in_a_plane(const localization::Method &one, const localization::Method &other)
+{
+  constexpr localization::Term curved = localization::Term::curved;
+  return one.without(curved).has_terms_of(other.without(curved));
+}
+
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
                                         const std::string &cell_file,
                                         const std::string &validity_file, const double limit,
@@ -122,7 +128,7 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
   valid.method = "localized";
   for (const auto &[method, loads] : loads_of)
     if (is_studied && loads == loads_of["localized"] &&
-        localization::Method(method).has_terms_of(given.used))
+        are_alike_in_a_plane(localization::Method(method), given.used))
       valid.method = method;
   bool is_told = false;
   std::set<std::string> limits;

@@ -27,6 +27,9 @@ struct ValidStrain
   std::string cell, file;
 };
 
+/// Whether two methods have the same terms where nothing bends, as in the sheets of the table.
+bool are_alike_in_a_plane(const localization::Method &one, const localization::Method &other);
+
 /// Reads the table. The run that wrote it has left its cells beside it: another lattice (by 1e-6),
 /// or a C^H that differs by more than 5 %, far beyond what two meshes of one cell do, is another
 /// cell.

@@ -28,7 +28,7 @@ TEST(exact_method, terms_come_back_in_one_order)
          {"full-micro-edges", "full-edges-micro"},
          {"affine+p2", "affine+p2"}})
     EXPECT_EQ(Method(text).name, name);
-  EXPECT_TRUE(Method("full-cubic-modes").has_terms_of(Method("localized+edges+p2")));
+  EXPECT_TRUE(Method("full-cubic-modes-curved").has_terms_of(Method("localized+edges+p2")));
   EXPECT_TRUE(Method("localized-micro").has_terms_of(Method("affine")));
 }
 

@@ -169,7 +169,7 @@ TEST(exact_moving_edges, slip_and_strain_gradients_of_a_slow_pull_end_in_those_o
 TEST(exact_moving_edges, full_comes_to_rest_where_the_static_method_does)
 {
   const homogenization::UnitCell cell = homogenization::read_unit_cell(CELLS "three-stiffness.prm");
-  const Method full("full");
+  const Method full("full-curved");
   for (const int axis : {0, 1})
   {
     meshes::CellEdges edges = homogenization::edges_of(cell, {});
