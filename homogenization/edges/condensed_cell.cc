@@ -70,20 +70,38 @@ double spectral_radius(Eigen::MatrixXd power)
 }
 } // namespace
 
+Eigen::MatrixXd rounded_off(const Eigen::MatrixXd &stiffness, const Eigen::MatrixXd &rigid)
+{
+  Eigen::MatrixXd result = stiffness - stiffness * rigid * rigid.transpose();
+  result -= (rigid * (rigid.transpose() * result)).eval();
+  return 0.5 * (result + result.transpose());
+}
+
 Decay decay_of(const CondensedCell &cell)
 {
   const SideStiffness &sides = cell.stiffness;
   const SideStiffness row    = long_row_of_cells(sides, cell.rigid);
   const Eigen::MatrixXd back = sides.across.transpose();
-  const Eigen::MatrixXd half_strip =
-    row.first - row.across * row.second.llt().solve(row.across.transpose());
-  const Eigen::MatrixXd step = -(sides.second + half_strip).llt().solve(back);
+  // The other end of the row is held; let go, it follows rigid motions, which then feel nothing.
+  const Eigen::MatrixXd &q    = cell.rigid;
+  const Eigen::MatrixXd stiff = row.first * q;
+  Eigen::MatrixXd half_strip =
+    row.first - stiff * (q.transpose() * stiff).llt().solve(stiff.transpose());
+  // Slender rows are rounded: a few more cells at the edge take that back, as they shrink fields.
+  Eigen::MatrixXd step;
+  for (int k = 0; k < 4; ++k)
+  {
+    step       = -(sides.second + half_strip).llt().solve(back);
+    half_strip = rounded_off(sides.first + sides.across * step, q);
+  }
   Decay decay;
-  decay.residual =
-    (sides.across * step * step + (sides.first + sides.second) * step + back).norm() /
-    sides.first.norm();
+  // Over the square roots of the diagonal: deflections and slopes have other units.
+  const Eigen::VectorXd scale = (sides.first + sides.second).diagonal().cwiseSqrt().cwiseInverse();
+  const auto size             = [&](const Eigen::MatrixXd &stiffness)
+  { return (scale.asDiagonal() * stiffness * scale.asDiagonal()).norm(); };
+  decay.residual = size(sides.across * step * step + (sides.first + sides.second) * step + back) /
+                   size(sides.first);
   // Rigid motions go over into rigid motions: on what is left of the others X has all |l| < 1.
-  const Eigen::MatrixXd &q = cell.rigid;
   Eigen::MatrixXd decaying = step - q * (q.transpose() * step);
   decaying -= (decaying * q * q.transpose()).eval();
   constexpr double round_off = 1e-13;

@@ -41,6 +41,11 @@ struct Decay
 
 class CondensedCell;
 
+/// A stiffness of a side without what rounding makes of it: it is symmetric, and rigid motions feel
+/// nothing.
+/// @param rigid orthonormal (n_side_dofs,2)
+Eigen::MatrixXd rounded_off(const Eigen::MatrixXd &stiffness, const Eigen::MatrixXd &rigid);
+
 /// @throws NotConverged where the factor is 0.999 or above, or a part of the cell moves freely
 Decay decay_of(const CondensedCell &cell);
 

@@ -35,14 +35,6 @@ int cells_until(const double left, const double factor)
   return factor > 0. ? std::max(1, static_cast<int>(std::ceil(std::log(left) / std::log(factor))))
                      : 1;
 }
-
-/// A stiffness without what rounding makes of it: it is symmetric, and rigid motions feel nothing.
-Eigen::MatrixXd rounded_off(const Eigen::MatrixXd &stiffness, const Eigen::MatrixXd &rigid)
-{
-  Eigen::MatrixXd result = stiffness - stiffness * rigid * rigid.transpose();
-  result -= (rigid * (rigid.transpose() * result)).eval();
-  return 0.5 * (result + result.transpose());
-}
 } // namespace
 
 Eigen::Matrix<double, 2, 3> EdgeFrame::components(const Eigen::Vector2d &e) const

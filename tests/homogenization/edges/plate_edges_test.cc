@@ -170,9 +170,13 @@ UnitCell pierced(const UnitCell &cell)
 // beams of the plate.
 TEST(order_plate_edges, come_to_those_of_the_analogous_membrane)
 {
-  const Eigen::Vector3d coarse = distance_of_analogy(8), fine = distance_of_analogy(16);
-  for (int k = 0; k < 3; ++k)
-    EXPECT_LT(fine(k), 0.5 * coarse(k)) << k; // of order one at least, beside corners of phases
+  const Eigen::Vector3d coarse = distance_of_analogy(8), fine = distance_of_analogy(16),
+                        finer = distance_of_analogy(32);
+  for (int k = 0; k < 3; ++k) // of order one at least, beside corners of phases
+  {
+    EXPECT_LT(fine(k), 0.5 * coarse(k)) << k;
+    EXPECT_LT(finer(k), 0.5 * fine(k)) << k;
+  }
 }
 
 // A hole is what a part becomes that is weaker and weaker.
