@@ -25,12 +25,6 @@ METHODS = (("flat", "flat"), ("affine", "D^H alone"), ("localized", "cell"),
 OUTCOMES = {"PASS": "nearer", "FAIL": "farther", "INCONCLUSIVE": "open"}
 
 
-def base(row):
-    """The error of the base, None where none is known."""
-    some = [float(row[name]) for name in ("affine", "affine+edges") if row[name]]
-    return min(some) if some else None
-
-
 def errors(rows):
     """All errors of one quantity."""
     return table(
@@ -38,7 +32,7 @@ def errors(rows):
         [
             [f"`{row['cell']}`", row["load"],
              *(with_bar(row, name) for name, _ in METHODS),
-             three(str(base(row) / float(row["full"]))) if row["full"] else "–",
+             three(str(float(row["base"]) / float(row["full"]))) if row["full"] else "–",
              OUTCOMES[row["full_against_base"]]]
             for row in rows
         ],
@@ -49,7 +43,7 @@ def in_short(rows, what):
     """How many rows are decided, the median gain, and each loss by name."""
     count = {word: sum(OUTCOMES[row["full_against_base"]] == word for row in rows)
              for word in OUTCOMES.values()}
-    gains = [base(row) / float(row["full"]) for row in rows if row["full"]]
+    gains = [float(row["base"]) / float(row["full"]) for row in rows if row["full"]]
     lost = [f"`{row['cell']}` {row['load']}" for row in rows
             if row["full_against_base"] == "FAIL"]
     alone = [f"`{row['cell']}` {row['load']}" for row in rows

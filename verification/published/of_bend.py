@@ -7,6 +7,7 @@ import math
 from of_strain import outcome_of
 
 METHODS = ("flat", "affine", "localized", "affine+edges", "full")
+BASES = ("affine", "affine+edges")  # without the deflection of the cell
 QUANTITIES = {  # what: columns of an error and its bar, power of the cell side in its unit
     "position": ("error_mean_m", "error_bar_m", 2),
     "normal": ("normal_error_mean_rad", "normal_error_bar_rad", 1),
@@ -29,6 +30,7 @@ def bending(results):
     for (cell, load), some in levels.items():
         for what, (error, bar, power) in QUANTITIES.items():
             words = {"cell": cell, "load": load, "what": what}
+            bases = [per_curvature(some[name], error, power) for name in BASES if name in some]
             yield {
                 **words,
                 "cells_per_side": next(iter(some.values()))["cells"],
@@ -37,6 +39,7 @@ def bending(results):
                     for name in METHODS
                     for ending, column in (("", error), ("_bar", bar))
                 },
+                "base": min(bases, default=math.nan),
                 **{
                     column: outcome_of(said, claim, {**words, "method": method})
                     for column, (claim, method) in CLAIMS.items()
