@@ -107,8 +107,8 @@ BentByTurns BentCloth::at(const double pressure)
       {
         // K of the sheet that is not turned, as in linear theory; times by how much the turn has
         // changed the moment of the clamp, since the lever arms have.
-        const Eigen::MatrixX3d curvatures = homogenized.curvature_of_triangles();
-        turned.mesh.positions             = homogenized.mesh.positions;
+        const Eigen::VectorXd curvatures = homogenized.curvature_of_clamps();
+        turned.mesh.positions            = homogenized.mesh.positions;
         for (const ClothSheet *const last : {&homogenized, &turned})
         {
           const double change = last->moment_of_clamps() / homogenized.moment_of_clamps();

@@ -6,10 +6,12 @@
 #include "shell/terms/edge_angles.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
+#include "verification/bend/edge_means.h"
 
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace homespun::verification
@@ -24,19 +26,10 @@ bool is_on(const meshes::Sheet &sheet, const int edge, const int vertex)
   return std::abs(fraction - edge % 2) < 2. * meshes::image_tolerance;
 }
 
-/// The value at a point of a field that is linear near it, from the triangles within a radius.
-Eigen::Vector3d value_at(const Eigen::RowVector2d &point, const double radius,
-                         const meshes::Points &centres, const Eigen::MatrixX3d &field)
+/// n n^T in the order of curvatures, 11, 22, 2 12; M . it is the moment across a line.
+Eigen::RowVector3d across(const Eigen::Vector2d &n)
 {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), right = Eigen::Matrix3d::Zero();
-  for (Eigen::Index t = 0; t < centres.rows(); ++t)
-    if (const Eigen::RowVector2d off = centres.row(t) - point; off.squaredNorm() < radius * radius)
-    {
-      const Eigen::Vector3d basis(1., off(0) / radius, off(1) / radius);
-      normal += basis * basis.transpose();
-      right += basis * field.row(t);
-    }
-  return normal.ldlt().solve(right).row(0).transpose();
+  return {n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1)};
 }
 } // namespace
 
@@ -95,27 +88,23 @@ int ClothSheet::bend(const double pressure)
 }
 
 void ClothSheet::turn_clamps(const homogenization::PlateEdges &edges,
-                             const Eigen::MatrixX3d &curvatures)
+                             const Eigen::VectorXd &curvatures)
 {
-  meshes::Points centres(mesh.n_triangles(), 2);
-  for (int t = 0; t < mesh.n_triangles(); ++t)
+  std::map<int, EdgeMeans> means;
+  for (std::size_t k = 0; k < clamps.size(); ++k)
   {
-    centres.row(t).setZero();
-    for (int k = 0; k < 3; ++k)
-      centres.row(t) += sheet.mesh.vertices.row(sheet.mesh.triangles(t, k)) / 3.;
+    ClampSide &one             = clamps[k];
+    const Eigen::RowVector3d K = curvatures(static_cast<Eigen::Index>(k)) * across(one.inwards);
+    one.turn                   = edges.sides[at(one.edge)].slip.slope.dot(K);
+    means.try_emplace(one.edge, sheet, one.edge)
+      .first->second.add({sheet.mesh.vertices.row(one.first).transpose(),
+                          sheet.mesh.vertices.row(one.second).transpose()},
+                         K.transpose());
   }
-  const double radius = 4. * std::sqrt(2. * areas.maxCoeff()); // about 25 triangles
-  for (ClampSide &one : clamps)
-  {
-    const homogenization::AffineDeflection &slip = edges.sides[at(one.edge)].slip;
-    const auto there                             = [&](const Eigen::RowVector2d &point)
-    { return value_at(point, radius, centres, curvatures); };
-    const Eigen::RowVector2d ends[2] = {sheet.mesh.vertices.row(one.first),
-                                        sheet.mesh.vertices.row(one.second)};
-    one.turn                         = slip.slope.dot(there(0.5 * (ends[0] + ends[1])));
-    mesh.positions(one.first, 2)     = slip.value.dot(there(ends[0]));
-    mesh.positions(one.second, 2)    = slip.value.dot(there(ends[1]));
-  }
+  for (const ClampSide &one : clamps)
+    for (const int v : {one.first, one.second})
+      mesh.positions(v, 2) = edges.sides[at(one.edge)].slip.value.dot(
+        means.at(one.edge).at(sheet.mesh.vertices.row(v).transpose()));
 }
 
 Eigen::MatrixX3d ClothSheet::moments() const
@@ -123,17 +112,26 @@ Eigen::MatrixX3d ClothSheet::moments() const
   return shell::bending_moments(mesh, plates, clamped_edges());
 }
 
+Eigen::VectorXd ClothSheet::curvature_of_clamps() const
+{
+  const Eigen::MatrixX3d all = moments();
+  Eigen::VectorXd curvature(static_cast<Eigen::Index>(clamps.size()));
+  for (std::size_t k = 0; k < clamps.size(); ++k)
+  {
+    const Eigen::RowVector3d n = across(clamps[k].inwards);
+    const Eigen::Matrix3d &D   = stiffness.bending[at(mesh.rest.material(clamps[k].triangle))];
+    curvature(static_cast<Eigen::Index>(k)) = all.row(clamps[k].triangle).dot(n) / n.dot(n * D);
+  }
+  return curvature;
+}
+
 double ClothSheet::moment_of_clamps() const
 {
   const Eigen::MatrixX3d all = moments();
   double sum                 = 0.;
   for (const ClampSide &one : clamps)
-  {
-    const double length =
-      (sheet.mesh.vertices.row(one.second) - sheet.mesh.vertices.row(one.first)).norm();
-    const double n1 = one.inwards(0), n2 = one.inwards(1);
-    sum += length * all.row(one.triangle).dot(Eigen::RowVector3d(n1 * n1, n2 * n2, 2. * n1 * n2));
-  }
+    sum += (sheet.mesh.vertices.row(one.second) - sheet.mesh.vertices.row(one.first)).norm() *
+           all.row(one.triangle).dot(across(one.inwards));
   return sum;
 }
 

@@ -52,11 +52,12 @@ public:
 
   /// Turns the planes of its clamps to what the edges of a cell say, b_a K_a of
   /// homogenization/edges/plate_edges.h, and lifts them by c_a K_a.
-  /// @param curvatures K_a at each triangle (m,3), of a homogenized cloth
-  void turn_clamps(const homogenization::PlateEdges &edges, const Eigen::MatrixX3d &curvatures);
+  /// @param curvatures across each side of its clamps, curvature_of_clamps() of a homogenized cloth
+  void turn_clamps(const homogenization::PlateEdges &edges, const Eigen::VectorXd &curvatures);
 
-  /// κ of each triangle (m,3) [1/m].
-  Eigen::MatrixX3d curvature_of_triangles() const;
+  /// Across each side of its clamps, along which there is none, from the moment that it carries
+  /// [1/m].
+  Eigen::VectorXd curvature_of_clamps() const;
 
   /// Of its clamps on the sheet, about their edges [N m].
   double moment_of_clamps() const;
@@ -69,6 +70,7 @@ public:
   meshes::ClothMesh mesh;
 
 private:
+  Eigen::MatrixX3d curvature_of_triangles() const;
   Eigen::MatrixX3d moments() const; ///< M = D κ of each triangle (m,3) [N]
 
   /// A side of a triangle at a clamp, whose plane is turned about it.

@@ -3,6 +3,7 @@
 
 #include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/index.h"
+#include "verification/bend/edge_means.h"
 
 #include <Eigen/LU>
 
@@ -68,6 +69,12 @@ Eigen::Vector3d PlateSheet::on_side(const homogenization::RimSide &rim, const do
   return barycentric;
 }
 
+std::array<Eigen::Vector2d, 2> PlateSheet::ends_of(const homogenization::RimSide &rim) const
+{
+  const auto &corners = plate.mesh.triangles[at(rim.triangle)].corners;
+  return {corners[at(rim.side)], corners[at((rim.side + 1) % 3)]};
+}
+
 /// What the two sides at a vertex say is averaged: of one edge they say nearly the same, and where
 /// two clamped edges meet the curvature, and with it the slope, is zero.
 template <typename ClampedAt>
@@ -120,9 +127,7 @@ Eigen::VectorXd PlateSheet::deflection(const BendingLoad &load, const double pre
   {
     if (load.by != BentBy::turn || one.edge != 1)
       return {0., Eigen::Vector2d::Zero()};
-    const auto &corners        = plate.mesh.triangles[at(one.rim.triangle)].corners;
-    const Eigen::Vector2d to   = corners[at((one.rim.side + 1) % 3)],
-                          from = corners[at(one.rim.side)];
+    const auto [from, to] = ends_of(one.rim);
     const Eigen::Vector2d middle =
       (sheet.origin + sheet.sides().row(0) + 0.5 * sheet.sides().row(1)).transpose();
     return {one.along.dot(from + part * (to - from) - middle), one.along};
@@ -172,14 +177,23 @@ Eigen::VectorXd PlateSheet::correction(const BendingLoad &load,
                          edges.bulk[1].transpose() * gradient.col(1));
   }
   forces += plate.of_moments(moments);
+  std::map<int, EdgeMeans> means; // of the curvature at clamps
+  for (const EdgeSide &one : edge_sides)
+  {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const auto &[part, weight] : points_on_a_side())
+      mean += weight * curvature_at(one.rim.triangle, on_side(one.rim, part));
+    means.try_emplace(one.edge, sheet, one.edge).first->second.add(ends_of(one.rim), mean);
+  }
   const auto clamped_at = [&](const EdgeSide &one, const double part) -> Clamped
   {
     const homogenization::AffineDeflection &slip = edges.sides[at(one.edge)].slip;
-    const auto there                             = [&](const double along)
-    { return curvature_at(one.rim.triangle, on_side(one.rim, along)); };
-    const double slope_along = slip.value.dot(there(1.) - there(0.)) / one.length;
-    return {slip.value.dot(there(part)),
-            slip.slope.dot(there(part)) * one.inwards + slope_along * one.along};
+    const auto [from, to]                        = ends_of(one.rim);
+    const auto lift                              = [&](const Eigen::Vector2d &point)
+    { return slip.value.dot(means.at(one.edge).at(point)); };
+    const double slope = slip.slope.dot(curvature_at(one.rim.triangle, on_side(one.rim, part)));
+    return {lift(from + part * (to - from)),
+            slope * one.inwards + (lift(to) - lift(from)) / one.length * one.along};
   };
   return plate.solve(forces, held(load, clamped_at));
 }

@@ -75,6 +75,8 @@ private:
   /// The point of a side at a part of its length.
   static Eigen::Vector3d on_side(const homogenization::RimSide &rim, double part);
 
+  std::array<Eigen::Vector2d, 2> ends_of(const homogenization::RimSide &rim) const;
+
   /// What a clamp prescribes at a point.
   struct Clamped
   {

@@ -77,13 +77,10 @@ TEST(order_bent_cloth, of_a_small_load_is_that_of_linear_theory_but_for_its_mesh
     const BendingError &before = wide.of_method[method], &now = fine.of_method[method];
     std::cout << bending_methods[method] << ": " << before.position << ", " << now.position
               << "; normals " << before.normal << ", " << now.normal << '\n';
-    // At the corners of a clamp the moments that turn and lift it are singular as r^(lambda − 1),
-    // lambda a little above 1: order lambda.
-    const double expected = method < with_edges ? 4. : 2.;
-    EXPECT_NEAR(before.position / now.position, expected, 0.7);
-    EXPECT_NEAR(before.normal / now.normal, expected, 0.7);
-    EXPECT_LT(now.position, 0.01);
-    EXPECT_LT(now.normal, 0.011);
+    // The moments at the corners of a clamp, which it is turned by, are singular.
+    EXPECT_NEAR(before.position / now.position, method < with_edges ? 4. : 3., 0.7);
+    EXPECT_LT(now.position, 0.005);
+    EXPECT_LT(now.normal, 0.005);
   }
 }
 
@@ -93,33 +90,36 @@ TEST(order_bent_cloth, leaves_linear_theory_as_the_square_of_its_curvature)
   const BendingCell cell(unit);
   const double unit_load = BentSheet(cell, across, 3, 6).unit_load;
   BentCloth cloth(cell, across, 3);
-  // Deflection and errors over curvature.
+  // Over curvature: the deflection, the curvature, and of two methods the errors of deflection and
+  // slopes at each vertex; along the sheet positions, and normals, change by the first power.
   const auto scaled = [&](const double bending)
   {
-    const double curvature     = bending / side;
-    const BentByTurns bent     = cloth.at(curvature * unit_load);
-    std::vector<double> values = {bent.deflection, bent.curvature};
+    const double curvature = bending / side;
+    const BentByTurns bent = cloth.at(curvature * unit_load);
+    const auto column      = [](const double value) { return Eigen::VectorXd::Constant(1, value); };
+    std::vector<Eigen::VectorXd> values = {column(bent.deflection), column(bent.curvature)};
     for (const Method method : {affine, full})
     {
-      // In the plane errors grow as the square of the curvature.
       const BentState &error = bent.error_of_method[method];
-      values.insert(values.end(), {error.col(2).cwiseAbs().mean(), normal_errors(error).mean()});
+      values.emplace_back(error.col(2));
+      values.emplace_back(error.middleCols<2>(3).reshaped());
     }
-    return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(values.data(), 6) / curvature);
+    for (Eigen::VectorXd &value : values)
+      value /= curvature;
+    return values;
   };
-  const Eigen::VectorXd least = scaled(1e-4);
+  const std::vector<Eigen::VectorXd> least = scaled(1e-4);
   std::vector<double> levels;
-  std::vector<std::vector<double>> distances(6);
+  std::vector<std::vector<double>> distances(least.size());
   for (const double bending : {0.01, 0.02, 0.04})
   {
     levels.push_back(bending);
-    const Eigen::VectorXd now = scaled(bending);
-    std::cout << now.transpose() << '\n';
-    for (int k = 0; k < 6; ++k)
-      distances[meshes::at(k)].push_back(std::abs(now(k) - least(k)));
+    const std::vector<Eigen::VectorXd> now = scaled(bending);
+    for (std::size_t k = 0; k < now.size(); ++k)
+      distances[k].push_back((now[k] - least[k]).cwiseAbs().mean());
   }
-  for (const std::vector<double> &one : distances)
-    EXPECT_NEAR(tests::slope(levels, one), 2., 0.1) << one[0] << ' ' << one[2];
+  for (std::size_t k = 0; k < distances.size(); ++k)
+    EXPECT_NEAR(tests::slope(levels, distances[k]), 2., 0.1) << k;
 }
 
 TEST(exact_bent_cloth, of_one_material_is_the_elastica_and_leaves_nothing_to_restore)

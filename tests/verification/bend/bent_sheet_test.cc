@@ -60,6 +60,19 @@ TEST(order_bent_sheet, is_first_with_the_homogenized_plate_alone_and_second_with
   EXPECT_NEAR(of_method[full], 1., 0.25);
 }
 
+// The homogenized sheet has a solution: what halved quads change falls, with the lift at clamps
+// too.
+TEST(order_bent_sheet, macro_problem_with_all_terms_converges)
+{
+  const homogenization::UnitCell unit = three_stripes(6, 10);
+  const BendingCell cell(unit);
+  const auto change = [&](const int quads_per_cell)
+  {
+    return BentSheet(cell, load_of("cantilever-2"), 3, quads_per_cell).of_macro_mesh[full].position;
+  };
+  EXPECT_LT(change(24), 0.75 * change(12));
+}
+
 TEST(order_bent_sheet, normals_need_both_the_deflection_of_the_cell_and_the_edges)
 {
   const homogenization::UnitCell unit = three_stripes();
