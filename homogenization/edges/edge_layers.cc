@@ -133,21 +133,6 @@ Eigen::Matrix<double, 2, 3> MembraneStrip::tension(const Lines &free) const
   return (of_cell + summed(functional, free)) / frame.length;
 }
 
-meshes::EdgeModes MembraneStrip::at_vertices(const Lines &lines, const int n_cells) const
-{
-  const int n = cell.elements.cell.mesh.n_vertices();
-  meshes::EdgeModes modes(n_cells * n, 6);
-  for (int k = 0; k < n_cells; ++k)
-  {
-    const Eigen::MatrixXd all = in_cell(lines, k);
-    for (int v = 0; v < n; ++v)
-      for (int a = 0; a < 3; ++a)
-        modes.row(k * n + v).segment<2>(2 * a) =
-          all.middleRows<2>(cell.first_dof(v)).col(a).transpose();
-  }
-  return modes;
-}
-
 std::array<Eigen::Matrix3d, 2> bulk_term(const CellElements &elements,
                                          const ElementCellProblem &problem)
 {
@@ -204,8 +189,8 @@ meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options)
         line -= moves * edge.slip;
       const int n_lines = std::max(lines_above(too_small, clamped), lines_above(too_small, free));
       edge.n_cells      = std::clamp(n_lines, 1, n_cells);
-      edge.clamped      = strip.at_vertices(clamped, edge.n_cells);
-      edge.free         = strip.at_vertices(free, edge.n_cells);
+      edge.clamped      = strip.at_vertices<2>(clamped, edge.n_cells);
+      edge.free         = strip.at_vertices<2>(free, edge.n_cells);
     }
   }
   return edges;

@@ -48,9 +48,6 @@ public:
   /// Tension of a free edge, rows: T_a . t, and T_a . n, which is zero (2,3) [N].
   Eigen::Matrix<double, 2, 3> tension(const Lines &free) const;
 
-  /// The fields at the vertices of the first cells.
-  meshes::EdgeModes at_vertices(const Lines &lines, int n_cells) const;
-
 private:
   const ElementCellProblem &problem;
 };

@@ -50,6 +50,27 @@ public:
   /// Fields of one of the cells (n_dofs,loads).
   Eigen::MatrixXd in_cell(const Lines &lines, int k) const;
 
+  /// The fields at the vertices of the first cells.
+  /// @tparam n_dofs of a vertex
+  /// @return row k n + v is vertex v (of n) of cell k, columns n_dofs a + i (n_cells n,3 n_dofs)
+  template <int n_dofs>
+  Eigen::Matrix<double, Eigen::Dynamic, 3 * n_dofs, Eigen::RowMajor>
+  at_vertices(const Lines &lines, const int n_cells) const
+  {
+    const int n = cell.elements.cell.mesh.n_vertices();
+    Eigen::Matrix<double, Eigen::Dynamic, 3 * n_dofs, Eigen::RowMajor> modes(n_cells * n,
+                                                                             3 * n_dofs);
+    for (int k = 0; k < n_cells; ++k)
+    {
+      const Eigen::MatrixXd all = in_cell(lines, k);
+      for (int v = 0; v < n; ++v)
+        for (int a = 0; a < 3; ++a)
+          modes.row(k * n + v).template segment<n_dofs>(n_dofs * a) =
+            all.middleRows<n_dofs>(cell.first_dof(v)).col(a).transpose();
+    }
+    return modes;
+  }
+
   /// Sum over all cells of linear functionals of their fields.
   /// @param functionals (n_dofs,m)
   /// @return (m,loads)

@@ -189,14 +189,14 @@ HalfStrip::Lines PlateStrip::without(const AffineDeflection &far, Lines lines) c
   return lines;
 }
 
-Eigen::Matrix3d PlateStrip::moment(const Lines &free) const
+Eigen::Matrix<double, 2, 3> PlateStrip::moment(const Lines &free) const
 {
   // Of the cell far inside the part 1 − s counts, s from 0 to 1 across it; a whole cell has none.
-  const CellElements &elements = problem.elements;
-  Eigen::Matrix3d rows;
-  rows << frame.components(frame.along), frame.components(frame.inwards).row(1);
-  Eigen::Matrix3d of_cell    = 0.5 * elements.cell.lattice.area() * rows * problem.solved.stiffness;
-  Eigen::MatrixXd functional = Eigen::MatrixXd::Zero(cell.n_dofs(), 3);
+  const CellElements &elements           = problem.elements;
+  const Eigen::Matrix<double, 2, 3> rows = frame.components(frame.along);
+  Eigen::Matrix<double, 2, 3> of_cell =
+    0.5 * elements.cell.lattice.area() * rows * problem.solved.stiffness;
+  Eigen::MatrixXd functional = Eigen::MatrixXd::Zero(cell.n_dofs(), 2);
   for (int t = 0; t < elements.n_triangles(); ++t)
   {
     const Eigen::Matrix3d &D =
@@ -211,27 +211,12 @@ Eigen::Matrix3d PlateStrip::moment(const Lines &free) const
                     {
                       of_cell -= weight * depth(place.transpose() * corners) * rows *
                                  problem.moments(t, kappa);
-                      const Eigen::Matrix<double, 3, 12> of_shapes = weight * rows * D * kappa;
+                      const Eigen::Matrix<double, 2, 12> of_shapes = weight * rows * D * kappa;
                       for (int k = 0; k < 12; ++k)
                         functional.row(dofs[at(k)]) += of_shapes.col(k).transpose();
                     });
   }
   return (of_cell + summed(functional, free)) / frame.length;
-}
-
-DeflectionModes PlateStrip::at_vertices(const Lines &lines, const int n_cells) const
-{
-  const int n = problem.elements.cell.mesh.n_vertices();
-  DeflectionModes modes(n_cells * n, 9);
-  for (int k = 0; k < n_cells; ++k)
-  {
-    const Eigen::MatrixXd all = in_cell(lines, k);
-    for (int v = 0; v < n; ++v)
-      for (int a = 0; a < 3; ++a)
-        modes.row(k * n + v).segment<3>(3 * a) =
-          all.middleRows<3>(cell.first_dof(v)).col(a).transpose();
-  }
-  return modes;
 }
 
 std::array<Eigen::Matrix3d, 2> bulk_term(const PlateProblem &problem)
@@ -281,13 +266,13 @@ Eigen::VectorXd too_small_on(const PlateStrip &strip, const PlateProblem &proble
 }
 
 /// The tensor of a moment of which tt and tn are given, in rows 11, 22, 12.
-Eigen::Matrix3d in_axes(const EdgeFrame &frame, const Eigen::Matrix3d &of_edge)
+Eigen::Matrix3d in_axes(const EdgeFrame &frame, const Eigen::Matrix<double, 2, 3> &of_edge)
 {
   const Eigen::Vector2d &t = frame.along, &n = frame.inwards;
   Eigen::Matrix<double, 3, 2> columns;
   columns << t(0) * t(0), 2. * t(0) * n(0), t(1) * t(1), 2. * t(1) * n(1), t(0) * t(1),
     t(0) * n(1) + t(1) * n(0);
-  return columns * of_edge.topRows<2>();
+  return columns * of_edge;
 }
 } // namespace
 
@@ -299,8 +284,7 @@ PlateEdges edges_of_plate(const UnitCell &cell, const EdgeOptions &options)
   for (int axis = 0; axis < 2; ++axis)
   {
     const CondensedCell condensed(problem.elements, axis, elements_of_plate(problem));
-    const double factor = decay_of(condensed).factor;
-    const int n_cells   = cells_of_strip(condensed, options, factor);
+    const int n_cells = cells_of_strip(condensed, options, decay_of(condensed).factor);
     for (const int side : {2 * axis, 2 * axis + 1})
     {
       const PlateStrip strip(condensed, problem, side);
@@ -311,11 +295,10 @@ PlateEdges edges_of_plate(const UnitCell &cell, const EdgeOptions &options)
       PlateEdge &edge                 = edges.sides[at(side)];
       edge.slip                       = far;
       edge.moment                     = in_axes(strip.frame, strip.moment(free));
-      edge.decay                      = factor;
       const int n_lines = std::max(lines_above(too_small, clamped), lines_above(too_small, free));
       edge.n_cells      = std::clamp(n_lines, 1, n_cells);
-      edge.clamped      = strip.at_vertices(clamped, edge.n_cells);
-      edge.free         = strip.at_vertices(free, edge.n_cells);
+      edge.clamped      = strip.at_vertices<3>(clamped, edge.n_cells);
+      edge.free         = strip.at_vertices<3>(free, edge.n_cells);
     }
   }
   return edges;

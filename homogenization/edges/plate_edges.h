@@ -12,8 +12,8 @@
 //   M_abc = 2 <(M_c e_b).grad w_a> − 2 <(M_a e_b).grad w_c>
 //
 // p is the period along n. The slip b_a is how far a clamp turns the cloth, m_a a beam sewn on a
-// free edge, of bending and torsion (its nn is zero). c_a is of second order in the cell: with it
-// the cloth lies at its clamp, whatever constant w_a has. The homogenized deflection w0 + w1 has
+// free edge, of bending and torsion (no moment nn stays). c_a is of second order in the cell: with
+// it the cloth lies at its clamp, whatever constant w_a has. The homogenized deflection w0 + w1 has
 //   w1 = c_a K_a(w0), dw1/dn = b_a K_a(w0) on clamped edges, and for all v that are clamped there
 //   integral kappa(v).D^H.kappa(w1) = − integral M_abc d_b K_a(w0) kappa_c(v)
 //                                     − sum over free edges integral m_a K_a(w0) : kappa(v) ds
@@ -51,8 +51,7 @@ struct PlateEdge
 {
   AffineDeflection slip;   ///< c_a [m^2] and b_a [m] of a clamped edge
   Eigen::Matrix3d moment;  ///< m_a of a free edge, in columns, rows 11, 22, 12 [N m^2]
-  double decay = 0.;       ///< by which the slowest of all modes shrinks from one cell to the next
-  int n_cells  = 0;        ///< that the modes take
+  int n_cells = 0;         ///< that the modes take
   DeflectionModes clamped; ///< phi_a − c_a − b_a y_n
   DeflectionModes free;    ///< phi_a
 };
@@ -94,11 +93,8 @@ public:
   /// It is taken off.
   Lines without(const AffineDeflection &far, Lines lines) const;
 
-  /// Of a free edge, columns a, rows m_a tt, tn, nn; the last is zero (3,3) [N m^2].
-  Eigen::Matrix3d moment(const Lines &free) const;
-
-  /// The fields at the vertices of the first cells.
-  DeflectionModes at_vertices(const Lines &lines, int n_cells) const;
+  /// Of a free edge, columns a, rows m_a tt and tn (2,3) [N m^2].
+  Eigen::Matrix<double, 2, 3> moment(const Lines &free) const;
 
 private:
   Eigen::VectorXd moment_on_edge() const;
