@@ -55,19 +55,31 @@ void ArgumentFaults::read_variants(const StudyOptions &study, std::vector<std::s
   variants = read;
 }
 
-void ArgumentFaults::read_methods(StudyOptions &study, std::vector<std::string> &methods)
+void ArgumentFaults::read_methods(StudyOptions &study, std::vector<std::string> &methods,
+                                  const std::vector<Term> &without_meaning)
 {
   std::vector<std::string> read;
+  const auto with_meaning = [&](Method method)
+  {
+    for (const Term term : without_meaning)
+      method = method.without(term);
+    return method;
+  };
   for (const std::string &text : methods)
     try
     {
       const std::string now = Method::name_of_old(text);
       const Method method(now.empty() ? text : now);
+      for (const Term term : without_meaning)
+        if (method.asks_for(term))
+          throw meshes::BadInput("`" + text + "`: the term " + localization::name_of(term) +
+                                 " does nothing here; leave it out");
       if (!now.empty())
         tell_new_name(study, "--methods", text, now);
       const auto same =
         std::find_if(read.begin(), read.end(),
-                     [&](const std::string &other) { return method.has_terms_of(Method(other)); });
+                     [&](const std::string &other)
+                     { return with_meaning(method).has_terms_of(with_meaning(Method(other))); });
       if (same == read.end())
         read.push_back(method.name);
       else if (now.empty())

@@ -7,6 +7,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/cell/study_options.h"
 #include "verification/command/command.h"
+#include "verification/method/method.h"
 #include "verification/record/run_folder.h"
 #include "verification/record/verdict.h"
 
@@ -59,7 +60,10 @@ public:
 
   /// Writes each of --methods in the one order of its terms. A name of version 0.1 becomes what it
   /// is called now, which is told unless the study is quiet.
-  void read_methods(StudyOptions &study, std::vector<std::string> &methods);
+  /// @param without_meaning terms that do nothing in the study: methods that differ in them alone
+  ///   are the same, and nobody may ask for them by name
+  void read_methods(StudyOptions &study, std::vector<std::string> &methods,
+                    const std::vector<Term> &without_meaning = {});
 
   /// The same of --variants of a scene, which are laws.
   void read_variants(const StudyOptions &study, std::vector<std::string> &variants);

@@ -73,7 +73,7 @@ void check_strain_arguments(StrainStudyOptions &study, const std::string &superc
       faults.add(std::string(option) + ": found nothing; expected at least one");
   faults.check_names("--loads", study.loads, [](const std::string &name) { return Load(name); });
   faults.check_names("--references", study.references, law_of);
-  faults.read_methods(study, study.methods);
+  faults.read_methods(study, study.methods, {Term::curved}); // sheets lie in a plane
   if (const auto n = read_supercell(supercell, faults))
     study.supercell = *n;
   if (has_supercell(study) &&

@@ -293,9 +293,9 @@ class BadInput(InFolder):
                          {"localized", "localized+p2", "full"})
         for methods, words in (("full,localized+micro+p2", "localized has the term micro already"),
                                ("full,full-cubic-cubic", "the term cubic is there twice"),
-                               ("localized+p2,full-edges-cubic-modes-curved",
-                                "`full-edges-cubic-modes-curved` has the terms of "
-                                "`localized+p2`")):
+                               ("localized+curved", "the term curved does nothing here"),
+                               ("localized+p2,full-edges-cubic-modes",
+                                "`full-edges-cubic-modes` has the terms of `localized+p2`")):
             self.refused(*study, "--methods", methods, says=[words])
 
     def test_an_output_that_cannot_be_written_is_named(self):
