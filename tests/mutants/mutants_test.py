@@ -194,11 +194,12 @@ class Running(InFolder):
         self.assertEqual(run.batches_of(names, seconds), [[5, 7], [2], [1], [4]])
         self.assertEqual(run.batches_of(names, {}), [[2, 5, 7], [4], [1]])
 
-    def test_tests_of_the_same_folder_come_before_the_others(self):
-        self.assertEqual(run.near_first([[5, 7], [2], [1], [4]], {2, 7, 4}),
-                         [[7], [2], [4], [5], [1]])
+    def test_tests_of_the_folder_of_a_file_and_their_programs(self):
         names = ["walls", "meshes.plain.exact", "meshes.files.exact", "meshes.plain.bound"]
         self.assertEqual(run.tests_beside(names, "meshes/plain/lattice.cc"), {2, 4})
+        tests = [{"command": ["/a/build/tests/meshes/tests_meshes", "--label", "exact"]},
+                 {"command": ["/usr/bin/python3", "walls.py"]}]
+        self.assertEqual(run.programs_of(tests, "/a/build"), ["tests/meshes/tests_meshes", None])
 
     def test_what_the_program_notices(self):
         usual = {"status": 4, "claims": ["known"]}
@@ -276,7 +277,7 @@ class Running(InFolder):
         source.write_text(old, encoding="utf-8")
         (workshop.build / "CTestTestfile.cmake").write_text("".join(
             f'add_test({name} "grep" "-q" "{word}" "{source}")\n'
-            for name, word in [("slow", "t"), ("fails", "never"), ("a.second", "two"),
+            for name, word in [("slow", "t"), ("fails", "never"), ("shell.second", "two"),
                                ("a.third", "three")]), encoding="utf-8")
         program = workshop.build / "homespun"
         program.write_text(
@@ -288,19 +289,31 @@ class Running(InFolder):
             "exit 1\n", encoding="utf-8")
         program.chmod(0o755)
         workshop.usual = {part: {"status": 4, "claims": []} for part in run.PARTS}
-        workshop.names = ["slow", "fails", "a.second", "a.third"]
-        workshop.batches = run.batches_of(["slow", "fails", "a.second", "a.third"], {"slow": 20.},
-                                          ["fails"])
-        for fault, builds, test, claim in [("two", True, "a.second", ""),
-                                           ("three", True, "a.third", "it holds"),
-                                           ("one", True, "", ""), ("one", False, "", "")]:
-            workshop.builds = lambda who, answer=builds: answer
+        workshop.names = ["slow", "fails", "shell.second", "a.third"]
+        workshop.programs = [None, None, "tests_shell", None]
+        workshop.revision = "1234abcd"
+        workshop.batches = run.batches_of(workshop.names, {"slow": 20.}, ["fails"])
+        built = []
+
+        def builds(*targets):
+            built.append(targets)
+            return "all" not in refused or targets != ()
+
+        for fault, refused, test, claim, expected in [
+                ("two", "", "shell.second", "", [("tests_shell",), ("homespun",)]),
+                ("three", "", "a.third", "it holds", [("tests_shell",), (), ("homespun",)]),
+                ("one", "", "", "", [("tests_shell",), (), ("homespun",)]),
+                ("one", "all", "", "", [("tests_shell",), ()])]:
+            built.clear()
+            workshop.builds = builds
             text = patches.patch_of("shell/a.cc", old, old.replace(fault, "fault"), "A fault.")
             mutant = patches.parsed(text, fault, "chosen")
             row = workshop.measured(mutant, results.new_row(mutant), ["tests", "program"])
             self.assertEqual((row["builds"], row["noticed_by_test"], row["noticed_by_program"]),
-                             (str(builds).lower(), test, claim))
+                             ("false" if refused else "true", test, claim))
             self.assertEqual(row["seconds_to_notice"] != "", test != "")
+            self.assertEqual(row["tests_at"] + row["program_at"], "" if refused else 2 * "1234abcd")
+            self.assertEqual(built, expected)
             self.assertEqual(source.read_text(encoding="utf-8"), old)
 
 

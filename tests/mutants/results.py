@@ -4,8 +4,8 @@ import csv
 import os
 import pathlib
 
-COLUMNS = ["mutant", "kind", "file", "noticed_by_test", "seconds_to_notice", "noticed_by_program",
-           "builds"]
+COLUMNS = ["mutant", "kind", "file", "noticed_by_test", "seconds_to_notice", "tests_at",
+           "noticed_by_program", "program_at", "builds"]
 NOT_YET = "not asked"
 
 
@@ -36,8 +36,8 @@ class Table:
 
 
 def new_row(mutant):
-    return {"mutant": mutant.name, "kind": mutant.kind, "file": mutant.file,
-            "noticed_by_test": NOT_YET, "seconds_to_notice": "", "noticed_by_program": NOT_YET,
+    return {**dict.fromkeys(COLUMNS, ""), "mutant": mutant.name, "kind": mutant.kind,
+            "file": mutant.file, "noticed_by_test": NOT_YET, "noticed_by_program": NOT_YET,
             "builds": "true"}
 
 

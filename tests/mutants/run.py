@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Measures which mutants the tests notice, and which the program notices itself.
 
-run.py BUILD WORK [NAME ...]   BUILD: a tree of the unpatched program, for its settings and the
-                               seconds of its tests; WORK: a folder for copy, build and table
+run.py BUILD WORK [NAME ...]   BUILD: a tree of the unpatched program that was built and tested, for
+                               its settings, the seconds of its tests and those that fail already;
+                               WORK: a folder for copy, build and table
 run.py --ask tests ...         tests only, or with --ask program the program only: what is measured
                                in the other column of a row stays
 run.py --dry BUILD WORK ...    puts each fault into the copy and takes it out again, builds nothing
@@ -14,7 +15,6 @@ A row of WORK/mutants.csv per mutant (with --dry WORK/dry.csv); rows that are th
 again. It takes hours, and may be killed at any time.
 """
 import argparse
-import concurrent.futures
 import json
 import os
 import pathlib
@@ -138,11 +138,16 @@ def tests_beside(names, file):
     return {number for number, name in enumerate(names, 1) if name.startswith(beside)}
 
 
-def near_first(batches, near):
-    """The same numbers; those near come in batches before the others."""
-    parts = [[number for number in batch if number in near] for batch in batches]
-    parts += [[number for number in batch if number not in near] for batch in batches]
-    return [part for part in parts if part]
+def programs_of(tests, build):
+    """Of each test, the program of the build tree that it runs; None where it runs another one."""
+    paths = [os.path.relpath(test["command"][0], build) for test in tests]
+    return [None if path.startswith("..") else path for path in paths]
+
+
+def revision_of(sources):
+    """The commit, with a mark where files were changed since."""
+    return subprocess.run(["git", "describe", "--always", "--abbrev=8", "--dirty"], cwd=sources,
+                          check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
 
 
 def place_of(status):
@@ -162,6 +167,15 @@ def what_the_program_says(status, claims, usual):
     return ""
 
 
+def failed_log(build):
+    return pathlib.Path(build) / "Testing/Temporary/LastTestsFailed.log"
+
+
+def failed_tests(build):
+    log = failed_log(build)
+    return re.findall(r"^\d+:(.+)$", log.read_text(), re.M) if log.exists() else []
+
+
 class Workshop:
     """Copy and build tree in WORK."""
 
@@ -171,6 +185,7 @@ class Workshop:
         self.environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1",
                             "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         refuse_places(self.work)
+        self.revision = revision_of(patches.ROOT)
         self.work.mkdir(parents=True, exist_ok=True)
         (self.work / MARK).touch()
         make_equal(patches.ROOT, self.copy)
@@ -185,9 +200,10 @@ class Workshop:
             except subprocess.TimeoutExpired:
                 return None
 
-    def builds(self, who):
-        targets = [] if "tests" in who else ["--target", "homespun"]
-        return self.run("cmake", "--build", ".", "--parallel", str(JOBS), *targets,
+    def builds(self, *targets):
+        """Whether these build, or all where none is named."""
+        named = ["--target", *targets] if targets else []
+        return self.run("cmake", "--build", ".", "--parallel", str(JOBS), *named,
                         log="build.log") == 0
 
     def prepare(self, who):
@@ -197,50 +213,45 @@ class Workshop:
             command = ["cmake", "-S", str(self.copy), "-B", ".", *settings_of(self.given)]
             if self.run(*command, log="configure.log") != 0:
                 raise SystemExit(f"cmake fails; see {self.work}/configure.log")
-        if not self.builds(who):
+        if not self.builds(*([] if "tests" in who else ["homespun"])):
             raise SystemExit(f"the sources do not build; see {self.work}/build.log")
         listing = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build, check=True,
                                  env=self.environment, stdout=subprocess.PIPE).stdout
-        names = [test["name"] for test in json.loads(listing)["tests"]]
+        tests = json.loads(listing)["tests"]
+        self.names = [test["name"] for test in tests]
+        self.programs = programs_of(tests, self.build)
+        failing = failed_tests(self.given)
+        for test in failing:
+            print(f"{test} fails without any mutant and is not asked", flush=True)
+        self.batches = batches_of(self.names, seconds_of_tests(self.build, self.given),
+                                  [*NOT_ASKED, *failing])
         usual = self.work / "usual.json"
-        if not usual.exists():
+        if "program" in who and not usual.exists():
             print("the sound program", flush=True)
-            self.failed_log().unlink(missing_ok=True)
-            if "tests" in who:
-                self.run("ctest", "--parallel", str(JOBS), log="tests.log")
-            found = {"failing_tests": self.failed_tests()}
-            for part in PARTS if "program" in who else ():
-                status, claims = self.ask_part(part)
-                found[part] = {"status": status, "claims": claims}
+            found = {part: dict(zip(("status", "claims"), self.ask_part(part))) for part in PARTS}
             unfinished = usual.with_suffix(".unfinished")
             unfinished.write_text(json.dumps(found, indent=2))
             os.replace(unfinished, usual)
-        self.usual = json.loads(usual.read_text())
-        for test in self.usual["failing_tests"]:
-            if test not in NOT_ASKED:
-                print(f"{test} fails without any mutant and is not asked", flush=True)
-        self.names = names
-        self.batches = batches_of(names, seconds_of_tests(self.build, self.given),
-                                  [*NOT_ASKED, *self.usual["failing_tests"]])
-
-    def failed_log(self):
-        return self.build / "Testing/Temporary/LastTestsFailed.log"
-
-    def failed_tests(self):
-        log = self.failed_log()
-        return re.findall(r"^\d+:(.+)$", log.read_text(), re.M) if log.exists() else []
+        self.usual = json.loads(usual.read_text()) if usual.exists() else {}
 
     def ask_tests(self, mutant):
-        """The first test that fails, or nothing, and the seconds until then."""
-        start = time.monotonic()
-        for numbers in near_first(self.batches, tests_beside(self.names, mutant.file)):
-            self.failed_log().unlink(missing_ok=True)
-            status = self.run("ctest", "--stop-on-failure", "-I",
-                              "0,0,0," + ",".join(str(number) for number in numbers),
-                              log="tests.log")
-            if status != 0:
-                return (self.failed_tests() or ["ctest"])[0], time.monotonic() - start
-        return "", time.monotonic() - start
+        """The first test that fails, or nothing, and the seconds of testing until then; None where
+        it does not build. Tests of its folder are built and asked before all the others."""
+        near, seconds = tests_beside(self.names, mutant.file), 0.
+        theirs = {self.programs[number - 1] for number in near} - {None}
+        for beside in (True, False):
+            if not self.builds(*(sorted(theirs) if beside else [])):
+                return None
+            start = time.monotonic()
+            for batch in self.batches:
+                numbers = [str(number) for number in batch if (number in near) == beside]
+                failed_log(self.build).unlink(missing_ok=True)
+                if numbers and self.run("ctest", "--stop-on-failure", "-I",
+                                        "0,0,0," + ",".join(numbers), log="tests.log") != 0:
+                    return ((failed_tests(self.build) or ["ctest"])[0],
+                            seconds + time.monotonic() - start)
+            seconds += time.monotonic() - start
+        return "", seconds
 
     def ask_program(self):
         """What is unusual of the first part of a quick verification of a cell of which anything is;
@@ -273,17 +284,14 @@ class Workshop:
             row["noticed_by_program"] = ""
             asked = [one for one in asked if one != "program"]
         with Fault(self.copy, mutant):
-            if not self.builds(asked):
+            found = self.ask_tests(mutant) if "tests" in asked else ("", 0.)
+            if found is None or "program" in asked and not self.builds("homespun"):
                 return {**row, "noticed_by_test": "", "noticed_by_program": "", "builds": "false"}
-            with concurrent.futures.ThreadPoolExecutor() as both:
-                tests = both.submit(self.ask_tests, mutant) if "tests" in asked else None
-                program = both.submit(self.ask_program) if "program" in asked else None
-            if tests:
-                test, seconds = tests.result()
-                row.update(noticed_by_test=test,
-                           seconds_to_notice=f"{seconds:.1f}" if test else "")
-            if program:
-                row["noticed_by_program"] = program.result()
+            if "tests" in asked:
+                row.update(noticed_by_test=found[0], tests_at=self.revision,
+                           seconds_to_notice=f"{found[1]:.1f}" if found[0] else "")
+            if "program" in asked:
+                row.update(noticed_by_program=self.ask_program(), program_at=self.revision)
         return row
 
     def tried(self, mutant):
