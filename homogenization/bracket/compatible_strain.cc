@@ -3,6 +3,7 @@
 
 #include "homogenization/algebra/refined_solution.h"
 #include "homogenization/bracket/displacement_shapes.h"
+#include "homogenization/bracket/loewner.h"
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 #include "meshes/plain/triangle_kinematics.h"
@@ -291,7 +292,9 @@ void CompatibleStrain::evaluate()
 {
   using Sum  = Eigen::Matrix<long double, 3, 3>;
   Sum energy = Sum::Zero(), flux = Sum::Zero();
-  Eigen::Array3d bars = Eigen::Array3d::Zero();
+  // Of each product of two loads, and not of their energies alone: where one is stiff and the other
+  // soft, what the soft field lacks in the stiff phase is nothing to its energy and much to theirs.
+  Eigen::Matrix3d bars = Eigen::Matrix3d::Zero();
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
@@ -306,9 +309,7 @@ void CompatibleStrain::evaluate()
       energy += (strain.transpose() * stress).cast<long double>();
       flux += stress.cast<long double>();
       const Eigen::Matrix3d wrong = bar.middleRows<3>(3 * q) + meshes::epsilon * strain.cwiseAbs();
-      bars +=
-        2. * weight *
-        (strain.cwiseAbs().cwiseProduct(c.cwiseAbs() * wrong)).colwise().sum().transpose().array();
+      bars += weight * (strain.cwiseAbs().transpose() * c.cwiseAbs() * wrong);
     }
   }
   const auto averaged = [this](const Sum &sum) -> Eigen::Matrix3d
@@ -316,7 +317,7 @@ void CompatibleStrain::evaluate()
   const Eigen::Matrix3d unsymmetric = averaged(energy);
   stiffness                         = 0.5 * (unsymmetric + unsymmetric.transpose());
   stiffness_by_flux                 = averaged(flux);
-  round_off = (bars / (mesh.lattice.area() * stiffness.diagonal().array())).maxCoeff();
+  round_off = relative_error(bars + bars.transpose(), mesh.lattice.area() * stiffness);
 }
 
 meshes::Chi CompatibleStrain::chi_at_given_vertices() const

@@ -55,8 +55,8 @@ public:
 
   Eigen::Matrix3d stiffness;         ///< the energies [N/m]
   Eigen::Matrix3d stiffness_by_flux; ///< the mean stresses (Eq. 4) [N/m]
-  double round_off; ///< bound on the error of the energies, relative to the diagonal
-  double excess;    ///< of the energy above that of the exact minimiser, relative
+  double round_off;                  ///< bound on the error of its entries, by relative_error
+  double excess;                     ///< of the energy above that of the exact minimiser, relative
   unsigned n_dofs;
   unsigned iterations;
 

@@ -2,6 +2,7 @@
 #include "homogenization/bracket/equilibrated_stress.h"
 
 #include "homogenization/algebra/refined_solution.h"
+#include "homogenization/bracket/loewner.h"
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 
@@ -334,9 +335,9 @@ EquilibratedStress::stress_function_at_given_vertices() const
 
 void EquilibratedStress::evaluate()
 {
-  using Sum           = Eigen::Matrix<long double, 3, 3>;
-  Sum energy          = Sum::Zero();
-  Eigen::Array3d bars = Eigen::Array3d::Zero();
+  using Sum            = Eigen::Matrix<long double, 3, 3>;
+  Sum energy           = Sum::Zero();
+  Eigen::Matrix3d bars = Eigen::Matrix3d::Zero(); // of each product, as for compatible strains
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
@@ -370,15 +371,13 @@ void EquilibratedStress::evaluate()
       energy += (weight * (sigma.transpose() * s * sigma)).cast<long double>();
       const Eigen::Matrix3d wrong =
         field_bar.middleRows<3>(3 * q) + meshes::epsilon * sigma.cwiseAbs();
-      bars +=
-        2. * weight *
-        (sigma.cwiseAbs().cwiseProduct(s.cwiseAbs() * wrong)).colwise().sum().transpose().array();
+      bars += weight * (sigma.cwiseAbs().transpose() * s.cwiseAbs() * wrong);
     }
   }
   const Eigen::Matrix3d unsymmetric =
     (energy / static_cast<long double>(mesh.lattice.area())).cast<double>();
   compliance = 0.5 * (unsymmetric + unsymmetric.transpose());
-  bars /= mesh.lattice.area() * compliance.diagonal().array();
-  round_off = bars.maxCoeff() + compliances.error;
+  round_off =
+    relative_error(bars + bars.transpose(), mesh.lattice.area() * compliance) + compliances.error;
 }
 } // namespace homespun::homogenization

@@ -85,7 +85,7 @@ public:
   Eigen::Matrix<double, Eigen::Dynamic, 3> stress_function_at_given_vertices() const;
 
   Eigen::Matrix3d compliance; ///< S_h = 1/|Y| integral sigma_a : c^-1 : sigma_b [m/N]
-  double round_off;           ///< bound on the error of its evaluation, relative to its diagonal
+  double round_off;           ///< bound on the error of its entries, by relative_error
   double excess;              ///< of the energy above that of the exact minimiser, relative
   unsigned n_dofs;
   unsigned iterations;

@@ -34,6 +34,11 @@ double weakness(const Eigen::Matrix3d &A)
   return smallest > 0. ? 1. / smallest : std::numeric_limits<double>::infinity();
 }
 
+double relative_error(const Eigen::Matrix3d &error, const Eigen::Matrix3d &A)
+{
+  return scaled(error, scale_of(A)).cwiseAbs().maxCoeff();
+}
+
 Eigen::Matrix3d raised(const Eigen::Matrix3d &A, const double part)
 {
   const Eigen::Matrix3d diagonal = A.diagonal().asDiagonal();

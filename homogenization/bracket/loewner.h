@@ -14,6 +14,9 @@ namespace homespun::homogenization
 /// where A is not positive.
 double weakness(const Eigen::Matrix3d &A);
 
+/// The largest |error_ij| / sqrt(A_ii A_jj): of errors of the entries of A, the part of `weakness`.
+double relative_error(const Eigen::Matrix3d &error, const Eigen::Matrix3d &A);
+
 /// A matrix whose entries may be wrong by part x sqrt(A_ii A_jj) lies below this one: A + 3 part
 /// diag(A).
 Eigen::Matrix3d raised(const Eigen::Matrix3d &A, double part);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace homespun;
@@ -219,6 +220,32 @@ TEST(bound_bracket, lower_is_below_upper_and_both_lie_between_reuss_and_voigt)
     EXPECT_LT(b.round_off, 1e-7) << contrast;
     EXPECT_LT(b.excess, 1e-9) << contrast;
   }
+}
+
+TEST(bound_bracket, stripes_lie_between_their_sides_at_any_contrast)
+{
+  // In the stiff phase the soft load leaves a strain of 1 / contrast, which is a difference of
+  // numbers of size 1: its product with the stiff load is off by the rounding of 1 times
+  // sqrt(contrast), where the energy of neither is.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  for (const double contrast : {1e3, 1e6, 1e9, 1e12})
+    for (const bool is_soft_first : {true, false})
+      for (const unsigned order : {1u, 2u})
+      {
+        std::vector<Eigen::Matrix3d> phases = tests::contrasting(contrast);
+        if (!is_soft_first)
+          std::swap(phases[0], phases[1]);
+        const Bracket b =
+          bracketed(tests::bracket_cell(tests::square_lattice(1.), 4, 3, phases,
+                                        [](double, double f2) { return f2 < 1. / 3. ? 0 : 1; }),
+                    order);
+        const Eigen::Matrix3d exact = laminate_stiffness(phases, {1. / 3., 2. / 3.}),
+                              scale = exact.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+        const auto is_below         = [&](const Eigen::Matrix3d &A, const Eigen::Matrix3d &B)
+        { return is_ordered(scale * A * scale, scale * B * scale, 4. * epsilon); };
+        EXPECT_TRUE(is_below(b.lower, exact) && is_below(exact, b.upper)) << contrast;
+        EXPECT_LT(b.round_off, 2000. * epsilon * std::sqrt(contrast)) << contrast;
+      }
 }
 
 TEST(bound_bracket, a_finer_mesh_nests_inside_a_coarser_one)
