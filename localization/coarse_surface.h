@@ -9,7 +9,7 @@
 // is the quadric of curvature K along the normal; K and n are linear between the vertices, so that
 // the surface has no jumps. K_ab = n.x_,ab, positive where the cloth bends towards its normal, in
 // the rest frame (11, 22, 2 x 12), n = x_,1 × x_,2 / J: the derivatives of the quadratic polynomial
-// that fits the neighbours of a vertex best, x_v fixed, weighted by the inverse square of their
+// that fits the neighbours of a vertex best, x_v fixed, each equation divided by the square of the
 // distance at rest. They are neighbours over one edge, and over two or three where those do not
 // determine it, as at edges of the cloth. It is exact for quadratic x on any mesh; the mean of
 // angles at edges is not.

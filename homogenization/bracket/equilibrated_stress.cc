@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -69,6 +70,7 @@ Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const i
   stress << second.row(1), second.row(0), -second.row(2);
   return stress;
 }
+
 Compliances::Compliances(const std::vector<Eigen::Matrix3d> &stiffnesses)
 {
   for (const Eigen::Matrix3d &c : stiffnesses)

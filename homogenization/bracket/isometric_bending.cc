@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/isometric_bending.h"
 
+#include "homogenization/bracket/plate.h"
 #include "meshes/plain/index.h"
 
 #include <algorithm>
@@ -101,7 +102,7 @@ isometric_bending(const PlateMesh &mesh, const meshes::Lattice &lattice,
   Eigen::Vector2d n(-along(1) / length, along(0) / length);
   if (n(1) < 0. || (n(1) == 0. && n(0) < 0.))
     n = -n;
-  const Eigen::Vector3d K(n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1));
+  const Eigen::Vector3d K = curvature_across(n);
   std::vector<double> offsets;
   for (const PlateTriangle &triangle : mesh.triangles)
     for (const Eigen::Vector2d &corner : triangle.corners)

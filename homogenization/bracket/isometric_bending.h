@@ -35,6 +35,6 @@ isometric_bending(const PlateMesh &mesh, const meshes::Lattice &lattice,
                   const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material,
                   const std::array<int, 2> &ruling);
 
-/// The rulings of few lattice vectors, no number above three: along others the means differ little.
+/// The rulings of few lattice vectors, no number above four: along others the means differ little.
 std::vector<std::array<int, 2>> short_rulings();
 } // namespace homespun::homogenization

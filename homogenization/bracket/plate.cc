@@ -214,6 +214,21 @@ Eigen::MatrixXd ThinPlate::solve(const Eigen::MatrixXd &loads,
   return solution;
 }
 
+Eigen::Vector3d curvature_across(const Eigen::Vector2d &n)
+{
+  return {n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1)};
+}
+
+Eigen::Matrix3d mean_of_materials(const TorusMesh &mesh,
+                                  const std::vector<Eigen::Matrix3d> &stiffness_of_material)
+{
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (const TorusTriangle &triangle : mesh.triangles)
+    mean += area_of(triangle.shape(mesh.edges)) / mesh.lattice.area() *
+            stiffness_of_material[at(triangle.material)];
+  return mean;
+}
+
 PlateCell solve_plate_cell(const TorusMesh &mesh,
                            const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material)
 {

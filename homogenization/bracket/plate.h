@@ -79,6 +79,14 @@ private:
                                       const Eigen::MatrixXd &held, Eigen::MatrixXd &right) const;
 };
 
+/// n n^T in the order of curvatures, 11, 22, 2 12: of a cylinder along whose normal n it curves;
+/// its product with a moment is the moment across a line with that normal.
+Eigen::Vector3d curvature_across(const Eigen::Vector2d &n);
+
+/// Mean of D over the cell, holes counting as zero.
+Eigen::Matrix3d mean_of_materials(const TorusMesh &mesh,
+                                  const std::vector<Eigen::Matrix3d> &stiffness_of_material);
+
 /// How a cell bends: min over periodic phi of 1/|Y| integral (K + kappa(phi)).D.(K + kappa(phi)).
 struct PlateCell
 {

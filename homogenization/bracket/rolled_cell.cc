@@ -21,11 +21,9 @@ namespace
 {
 using StrainsOfProducts = Eigen::Matrix<double, 3, 6>;
 
-/// n (x) n as a curvature.
 Eigen::Vector3d cylinder(const double angle)
 {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * c, s * s, 2. * c * s};
+  return curvature_across({std::cos(angle), std::sin(angle)});
 }
 
 /// e at a point for each product of entries of K, which e is quadratic in.
@@ -189,10 +187,7 @@ RolledCell rolled_cell(const TorusMesh &mesh,
   for (const std::array<int, 2> &ruling : short_rulings())
     rolled.isometric.push_back(
       isometric_bending(plate.mesh, mesh.lattice, bending_stiffness_of_material, ruling));
-  rolled.mean_stiffness.setZero();
-  for (const TorusTriangle &triangle : mesh.triangles)
-    rolled.mean_stiffness += area_of(triangle.shape(mesh.edges)) / mesh.lattice.area() *
-                             bending_stiffness_of_material[at(triangle.material)];
+  rolled.mean_stiffness = mean_of_materials(mesh, bending_stiffness_of_material);
   return rolled;
 }
 } // namespace homespun::homogenization

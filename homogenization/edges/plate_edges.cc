@@ -3,6 +3,7 @@
 
 #include "homogenization/bracket/clough_tocher.h"
 #include "homogenization/bracket/equilibrated_stress.h"
+#include "homogenization/bracket/plate.h"
 #include "meshes/plain/index.h"
 
 #include <algorithm>
@@ -16,6 +17,45 @@ using meshes::at;
 
 namespace
 {
+/// The cell problem of a plate on the nodes of a strip.
+struct PlateProblem
+{
+  explicit PlateProblem(const UnitCell &cell);
+
+  /// M_a at a field point of a triangle, rows 11, 22, 12 [N].
+  /// @param kappa of its shapes there
+  Eigen::Matrix3d moments(int triangle, const Eigen::Matrix<double, 3, 12> &kappa) const;
+
+  const CellElements elements; ///< their nodes alone
+  const ThinPlate plate;
+  const PlateCell solved;
+};
+
+/// What the cell problem makes of a row of cells at an edge: a plate's.
+class PlateStrip : public HalfStrip
+{
+public:
+  /// @param cell condensed with elements_of_plate()
+  PlateStrip(const CondensedCell &cell, const PlateProblem &problem, int side);
+
+  Lines clamped(int n_cells) const; ///< phi_a with no force on the other end
+  Lines free(int n_cells) const;    ///< phi_a with the other end held
+
+  /// c_a and b_a, the means of the last line.
+  AffineDeflection far(const Lines &clamped) const;
+
+  /// It is taken off.
+  Lines without(const AffineDeflection &far, Lines lines) const;
+
+  /// Of a free edge, columns a, rows m_a tt and tn (2,3) [N m^2].
+  Eigen::Matrix<double, 2, 3> moment(const Lines &free) const;
+
+private:
+  Eigen::VectorXd moment_on_edge() const;
+
+  const PlateProblem &problem;
+};
+
 /// What a DoF of the glued plate is: w, w,1, w,2 of a vertex, or the slope along a side's normal.
 struct DofKind
 {
@@ -68,7 +108,6 @@ void at_field_points(const ThinPlate &plate, const int triangle, Visit &&visit)
     visit(Eigen::Matrix<double, 3, 12>(rows.middleRows<3>(3 * q)),
           field_points()[at(q)].in_triangle);
 }
-} // namespace
 
 PlateProblem::PlateProblem(const UnitCell &cell)
     : elements(cell, 2)
@@ -84,6 +123,7 @@ Eigen::Matrix3d PlateProblem::moments(const int triangle,
          (Eigen::Matrix3d::Identity() + kappa * deflection_of(*this, triangle));
 }
 
+/// Clough-Tocher triangles, for CondensedCell [N m, with the powers of m of their DoFs].
 StripElements elements_of_plate(const PlateProblem &problem)
 {
   const auto rigid = [&problem](const CondensedCell &cell)
@@ -219,6 +259,7 @@ Eigen::Matrix<double, 2, 3> PlateStrip::moment(const Lines &free) const
   return (of_cell + summed(functional, free)) / frame.length;
 }
 
+/// M_abc of a cell.
 std::array<Eigen::Matrix3d, 2> bulk_term(const PlateProblem &problem)
 {
   const std::vector<WeightedPoint> points = points_of_pieces(3);
@@ -245,8 +286,6 @@ std::array<Eigen::Matrix3d, 2> bulk_term(const PlateProblem &problem)
   return mean;
 }
 
-namespace
-{
 /// Deflections and slopes too small to be kept, as the DoFs of a side have them.
 Eigen::VectorXd too_small_on(const PlateStrip &strip, const PlateProblem &problem,
                              const double kept)

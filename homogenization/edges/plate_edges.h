@@ -25,7 +25,6 @@
 // Source: Neuss-Radu 2001; Gérard-Varet and Masmoudi 2012 (boundary layers of homogenization).
 #pragma once
 
-#include "homogenization/bracket/plate.h"
 #include "homogenization/cell/unit_cell.h"
 #include "homogenization/edges/half_strip.h"
 #include "meshes/plain/cell_edges.h"
@@ -62,51 +61,6 @@ struct PlateEdges
   std::array<PlateEdge, meshes::CellEdges::n_sides> sides; ///< as in meshes::CellEdges
   std::array<Eigen::Matrix3d, 2> bulk; ///< M_abc [N m^2], entry (a, c) of bulk[b], b = x, y
 };
-
-/// The cell problem of a plate on the nodes of a strip.
-struct PlateProblem
-{
-  explicit PlateProblem(const UnitCell &cell);
-
-  /// M_a at a field point of a triangle, rows 11, 22, 12 [N].
-  /// @param kappa of its shapes there
-  Eigen::Matrix3d moments(int triangle, const Eigen::Matrix<double, 3, 12> &kappa) const;
-
-  const CellElements elements; ///< their nodes alone
-  const ThinPlate plate;
-  const PlateCell solved;
-};
-
-/// What the cell problem makes of a row of cells at an edge: a plate's.
-class PlateStrip : public HalfStrip
-{
-public:
-  /// @param cell condensed with elements_of_plate()
-  PlateStrip(const CondensedCell &cell, const PlateProblem &problem, int side);
-
-  Lines clamped(int n_cells) const; ///< phi_a with no force on the other end
-  Lines free(int n_cells) const;    ///< phi_a with the other end held
-
-  /// c_a and b_a, the means of the last line.
-  AffineDeflection far(const Lines &clamped) const;
-
-  /// It is taken off.
-  Lines without(const AffineDeflection &far, Lines lines) const;
-
-  /// Of a free edge, columns a, rows m_a tt and tn (2,3) [N m^2].
-  Eigen::Matrix<double, 2, 3> moment(const Lines &free) const;
-
-private:
-  Eigen::VectorXd moment_on_edge() const;
-
-  const PlateProblem &problem;
-};
-
-/// Clough-Tocher triangles, for CondensedCell [N m, with the powers of m of their DoFs].
-StripElements elements_of_plate(const PlateProblem &problem);
-
-/// M_abc of a cell.
-std::array<Eigen::Matrix3d, 2> bulk_term(const PlateProblem &problem);
 
 /// Everything that a cell does at the four edges of a plate of whole cells; rims of holes are free.
 /// @throws BadInput, NotConverged as edges_of()

@@ -2,7 +2,6 @@
 #include "verification/bend/bend_study.h"
 
 #include "meshes/plain/errors.h"
-#include "meshes/plain/sheet.h"
 #include "verification/bend/bend_tables.h"
 #include "verification/bend/bend_verdicts.h"
 #include "verification/bend/bent_cloth.h"
@@ -59,8 +58,7 @@ public:
 private:
   void refuse() const override
   {
-    for (const UnitCell &cell : cells())
-      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+    refuse_cells_without_sheets(cells());
   }
 
   nlohmann::ordered_json inputs() override
@@ -216,9 +214,17 @@ private:
       {
         const double curvature = bending / side_of(cell);
         const BentByTurns bent = sheet.at(curvature * unit_load);
-        const OptionalErrors distances =
-          distance_of_errors(small.sheet, small.at(curvature * of_small).error_of_method,
-                             finer.sheet, finer.at(curvature * of_small).error_of_method);
+        OptionalErrors distances;
+        try
+        {
+          distances =
+            distance_of_errors(small.sheet, small.at(curvature * of_small).error_of_method,
+                               finer.sheet, finer.at(curvature * of_small).error_of_method);
+        }
+        catch (const meshes::NotConverged &failure)
+        {
+          leave_out(cell, load, "error bars at", bending, failure);
+        }
         add_rows(cell, load, sheet.sheet,
                  {biot, bending, bent.error_of_method,
                   carried_bars(distances, growth_at_large_turns(ratio_to_small())),
@@ -227,13 +233,18 @@ private:
       }
       catch (const meshes::NotConverged &failure)
       {
-        left_out.push_back(
-          {{"what", cell.drawn.cell.name + ", " + load.name +
-                      ": reference biot from curvature times cell " + short_text(bending) + " on"},
-           {"why", failure.what()}});
+        leave_out(cell, load, "all levels from", bending, failure);
         ended.insert({cell.drawn.cell.name, load.name});
         return;
       }
+  }
+
+  void leave_out(const CellTwice &cell, const BendingLoad &load, const std::string &what,
+                 const double bending, const meshes::NotConverged &failure)
+  {
+    left_out.push_back({{"what", cell.drawn.cell.name + ", " + load.name + ": reference biot, " +
+                                   what + " curvature times cell " + short_text(bending)},
+                        {"why", failure.what()}});
   }
 
   void add_rows(const CellTwice &cell, const BendingLoad &load, const meshes::Sheet &sheet,
@@ -318,10 +329,14 @@ private:
         : nlohmann::ordered_json(
             {{"what", "large turns, stretching, mass, contact"},
              {"why", "plates in linear theory: errors are proportional to the curvature"}}));
+    const auto has = [&](const UnitCell &cell, const char *method)
+    {
+      return std::any_of(table->rows().begin(), table->rows().end(),
+                         [&](const BendRow &row)
+                         { return row.cell == cell.name && row.method == method; });
+    };
     for (const UnitCell &cell : cells())
-      if (std::none_of(table->rows().begin(), table->rows().end(),
-                       [&](const BendRow &row)
-                       { return row.cell == cell.name && row.method == "full"; }))
+      if (has(cell, "affine") && !has(cell, "full"))
         left_out.push_back(
           {{"what", cell.name + ": terms of edges"}, {"why", known_edges_of_plate(cell).why_not}});
     return {{{"cells", options.n_cells}, {"loads", options.loads}}, left_out, notes()};

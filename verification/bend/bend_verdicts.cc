@@ -76,7 +76,7 @@ Verdict verdict_on(const BendRow &of, const std::vector<BendRow> &rows, const Pa
   const double error = one->*what.error, other = than->*what.error,
                bars = one->*what.bar + than->*what.bar, gain = other - error,
                size = one->bending * std::pow(one->side, what.power - 1);
-  if (!(other > bent_to * size))
+  if (!(std::max(error, other) > bent_to * size))
   {
     words["note"] += "; open: there is nothing to restore";
     return verdict(Outcome::inconclusive, BendRow::none);
@@ -86,7 +86,7 @@ Verdict verdict_on(const BendRow &of, const std::vector<BendRow> &rows, const Pa
   return verdict(gain > bars    ? Outcome::pass
                  : gain < -bars ? Outcome::fail
                                 : Outcome::inconclusive,
-                 error / other);
+                 other > 0. ? error / other : BendRow::none);
 }
 } // namespace
 

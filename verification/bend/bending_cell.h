@@ -16,6 +16,7 @@ namespace homespun::verification
 /// w_a and D^H of a cell, and the edges of its plate or why they are not known.
 struct BendingCell
 {
+  /// @param cell kept by reference
   explicit BendingCell(const homogenization::UnitCell &cell);
 
   /// Whether its deflections are zero to round-off.

@@ -100,7 +100,7 @@ BentByTurns BentCloth::at(const double pressure)
   bent.seconds = seconds_of(
     [&]()
     {
-      bent.n_tangents += homogenized.bend(pressure);
+      homogenized.bend(pressure);
       bent.curvature                      = homogenized.mean_curvature();
       std::vector<const ClothSheet *> all = {&homogenized};
       if (cell.known.edges)
@@ -113,7 +113,7 @@ BentByTurns BentCloth::at(const double pressure)
         {
           const double change = last->moment_of_clamps() / homogenized.moment_of_clamps();
           turned.turn_clamps(*cell.known.edges, change * curvatures);
-          bent.n_tangents += turned.bend(pressure);
+          turned.bend(pressure);
         }
         all.push_back(&turned);
       }
@@ -129,7 +129,7 @@ BentByTurns BentCloth::at(const double pressure)
   bent.seconds_reference = seconds_of(
     [&]()
     {
-      bent.n_tangents += resolved.bend(pressure);
+      resolved.bend(pressure);
       reference = state_of(resolved);
     });
   bent.deflection = reference.col(2).cwiseAbs().mean();

@@ -29,7 +29,6 @@ struct BentByTurns
   BentSheet::OfMethods<BentState> error_of_method;
   double curvature         = 0.; ///< root mean square, of the homogenized sheet [1/m]
   double deflection        = 0.; ///< mean over the vertices of the resolved sheet [m]
-  int n_tangents           = 0;  ///< factorisations, of all sheets
   double seconds           = 0.; ///< of the homogenized sheets and all methods
   double seconds_reference = 0.;
 };

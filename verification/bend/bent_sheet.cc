@@ -136,7 +136,7 @@ BentState flat_triangles(const meshes::Sheet &sheet, const Eigen::MatrixX3d &cor
 
 int macro_quads_per_cell(const int n_cells)
 {
-  return 2 * std::max(1, 80 / (2 * n_cells));
+  return 2 * ((80 + 2 * n_cells - 1) / (2 * n_cells));
 }
 
 BentSheet::BentSheet(const BendingCell &cell, const BendingLoad &load, const int n,

@@ -48,7 +48,7 @@ meshes::TriangleMesh coarse_mesh(const meshes::Sheet &sheet);
 /// @return with normals of twice the length of the triangles' areas
 BentState flat_triangles(const meshes::Sheet &sheet, const Eigen::MatrixX3d &corners);
 
-/// Quads of the homogenized sheet along a side of a cell, even: about 80 along one of the sheet,
+/// Quads of the homogenized sheet along a side of a cell, even: at least 80 along one of the sheet,
 /// since its clamps and corners need as many whatever the number of cells.
 int macro_quads_per_cell(int n_cells);
 
@@ -56,7 +56,7 @@ int macro_quads_per_cell(int n_cells);
 struct BentSheet
 {
   /// A sheet of n x n cells; the homogenized one on a mesh of two triangles to a quad.
-  /// @param quads_per_cell along a side, even
+  /// @param quads_per_cell along a side; n times that is even
   BentSheet(const BendingCell &cell, const BendingLoad &load, int n, int quads_per_cell);
 
   template <typename Value>

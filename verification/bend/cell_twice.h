@@ -11,7 +11,9 @@ namespace homespun::verification
 /// A cell, once as it is drawn and once on its refined mesh.
 struct CellTwice
 {
+  /// @param cell kept by reference
   explicit CellTwice(const homogenization::UnitCell &cell);
+  CellTwice(const CellTwice &) = delete; // `finer` refers to its mesh
 
   const BendingCell drawn;
   const homogenization::UnitCell refined_unit;

@@ -2,6 +2,7 @@
 #include "verification/bend/cloth_sheet.h"
 
 #include "meshes/plain/index.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "shell/solver/cloth.h"
 #include "shell/terms/edge_angles.h"
 #include "shell/terms/inertial_terms.h"
@@ -16,6 +17,7 @@
 
 namespace homespun::verification
 {
+using homogenization::curvature_across;
 using meshes::at;
 
 namespace
@@ -24,12 +26,6 @@ bool is_on(const meshes::Sheet &sheet, const int edge, const int vertex)
 {
   const double fraction = sheet.fraction(sheet.mesh.vertices.row(vertex))(edge / 2);
   return std::abs(fraction - edge % 2) < 2. * meshes::image_tolerance;
-}
-
-/// n n^T in the order of curvatures, 11, 22, 2 12; M . it is the moment across a line.
-Eigen::RowVector3d across(const Eigen::Vector2d &n)
-{
-  return {n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1)};
 }
 } // namespace
 
@@ -74,7 +70,7 @@ std::vector<shell::ClampedEdge> ClothSheet::clamped_edges() const
   return edges;
 }
 
-int ClothSheet::bend(const double pressure)
+void ClothSheet::bend(const double pressure)
 {
   const Eigen::VectorXd shares = shell::lumped_masses(
     mesh, std::vector<double>(stiffness.bending.size(), 1.)); // areas, in the place of masses
@@ -82,9 +78,8 @@ int ClothSheet::bend(const double pressure)
   cloth.add(shell::membrane_term(mesh, stiffness.membrane));
   cloth.add(shell::edge_angles_term(mesh, plates, clamped_edges()));
   cloth.add(shell::gravity_term(shares, {0., 0., pressure}));
-  const shell::ClothEquilibrium found = cloth.solve_equilibrium(1e-9);
-  mesh.positions                      = cloth.positions();
-  return found.iterations;
+  cloth.solve_equilibrium(1e-9);
+  mesh.positions = cloth.positions();
 }
 
 void ClothSheet::turn_clamps(const homogenization::PlateEdges &edges,
@@ -93,9 +88,10 @@ void ClothSheet::turn_clamps(const homogenization::PlateEdges &edges,
   std::map<int, EdgeMeans> means;
   for (std::size_t k = 0; k < clamps.size(); ++k)
   {
-    ClampSide &one             = clamps[k];
-    const Eigen::RowVector3d K = curvatures(static_cast<Eigen::Index>(k)) * across(one.inwards);
-    one.turn                   = edges.sides[at(one.edge)].slip.slope.dot(K);
+    ClampSide &one = clamps[k];
+    const Eigen::RowVector3d K =
+      curvatures(static_cast<Eigen::Index>(k)) * curvature_across(one.inwards).transpose();
+    one.turn = edges.sides[at(one.edge)].slip.slope.dot(K);
     means.try_emplace(one.edge, sheet, one.edge)
       .first->second.add({sheet.mesh.vertices.row(one.first).transpose(),
                           sheet.mesh.vertices.row(one.second).transpose()},
@@ -118,7 +114,7 @@ Eigen::VectorXd ClothSheet::curvature_of_clamps() const
   Eigen::VectorXd curvature(static_cast<Eigen::Index>(clamps.size()));
   for (std::size_t k = 0; k < clamps.size(); ++k)
   {
-    const Eigen::RowVector3d n = across(clamps[k].inwards);
+    const Eigen::RowVector3d n = curvature_across(clamps[k].inwards);
     const Eigen::Matrix3d &D   = stiffness.bending[at(mesh.rest.material(clamps[k].triangle))];
     curvature(static_cast<Eigen::Index>(k)) = all.row(clamps[k].triangle).dot(n) / n.dot(n * D);
   }
@@ -131,7 +127,7 @@ double ClothSheet::moment_of_clamps() const
   double sum                 = 0.;
   for (const ClampSide &one : clamps)
     sum += (sheet.mesh.vertices.row(one.second) - sheet.mesh.vertices.row(one.first)).norm() *
-           all.row(one.triangle).dot(across(one.inwards));
+           all.row(one.triangle).dot(curvature_across(one.inwards));
   return sum;
 }
 
@@ -167,19 +163,11 @@ ClothSurface ClothSheet::surface() const
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const auto corners = mesh.triangles.row(t);
-    Eigen::Matrix<double, 2, 3> rest;
-    Eigen::Matrix3d space;
-    for (int k = 0; k < 3; ++k)
-    {
-      rest.col(k)  = mesh.rest.vertices.row(corners(k)).transpose();
-      space.col(k) = mesh.positions.row(corners(k)).transpose();
-    }
-    Eigen::Matrix2d legs;
-    legs << rest.col(1) - rest.col(0), rest.col(2) - rest.col(0);
-    Eigen::Matrix<double, 3, 2> F, gradients; // of the barycentric coordinates
-    gradients.bottomRows<2>()      = legs.inverse();
-    gradients.row(0)               = -gradients.row(1) - gradients.row(2);
-    F                              = space * gradients;
+    const Eigen::Matrix<double, 3, 2> gradients =
+      meshes::triangle_geometry(meshes::sides_of_triangle<2>(corners, mesh.rest.vertices))
+        .shape_gradients;
+    const Eigen::Matrix<double, 3, 2> F =
+      meshes::deformation_gradient<3>(mesh.rest, t, mesh.positions);
     const Eigen::Vector3d normal   = F.col(0).cross(F.col(1)).normalized();
     const Eigen::Matrix3d in_space = F * (F.transpose() * F).inverse() * gradients.transpose();
     for (int k = 0; k < 3; ++k)
@@ -187,7 +175,8 @@ ClothSurface ClothSheet::surface() const
       Eigen::Vector3d own = normal;
       for (int j = 0; j < 3; ++j)
       {
-        const Eigen::Vector2d e = rest.col(j) - rest.col(k);
+        const Eigen::RowVector2d e =
+          mesh.rest.vertices.row(corners(j)) - mesh.rest.vertices.row(corners(k));
         own += 0.5 * in_space.col(j) *
                of_triangles.row(t).dot(Eigen::RowVector3d(e(0) * e(0), e(1) * e(1), e(0) * e(1)));
       }

@@ -46,9 +46,8 @@ public:
 
   /// Equilibrium under a pressure along z, from where the cloth is.
   /// @param pressure on its triangles at rest [N/m^2]
-  /// @return factorisations
   /// @throws NotConverged
-  int bend(double pressure);
+  void bend(double pressure);
 
   /// Turns the planes of its clamps to what the edges of a cell say, b_a K_a of
   /// homogenization/edges/plate_edges.h, and lifts them by c_a K_a.

@@ -36,7 +36,8 @@ private:
   const BendingCell &cell;
   const BendingLoad &load;
   const meshes::Sheet &sheet;
-  /// Of each vertex of the glued cell one of the drawn cell on its far side along an axis, or −1.
-  std::array<std::vector<int>, 2> on_far_side;
+  /// By axis and end, near and far: of each vertex of the glued cell one of the drawn cell that
+  /// lies there, or −1.
+  std::array<std::array<std::vector<int>, 2>, 2> on_end;
 };
 } // namespace homespun::verification

@@ -3,13 +3,11 @@
 
 #include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/index.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "verification/bend/edge_means.h"
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <map>
-#include <string>
 #include <utility>
 
 namespace homespun::verification
@@ -49,10 +47,8 @@ PlateSheet::PlateSheet(const meshes::Sheet &sheet, const meshes::TriangleMesh &m
 {
   for (const homogenization::RimSide &rim : plate.mesh.rim())
   {
-    const PlateTriangle &triangle = plate.mesh.triangles[at(rim.triangle)];
-    const Eigen::Vector2d &from   = triangle.corners[at(rim.side)],
-                          &to     = triangle.corners[at((rim.side + 1) % 3)];
-    const int edge                = edge_at(sheet.fraction(0.5 * (from + to).transpose()));
+    const auto [from, to] = ends_of(rim);
+    const int edge        = edge_at(sheet.fraction(0.5 * (from + to).transpose()));
     if (edge < 0)
       continue; // the rim of a hole
     const double length         = (to - from).norm();
@@ -163,9 +159,7 @@ Eigen::VectorXd PlateSheet::correction(const BendingLoad &load,
     const auto &corners = plate.mesh.triangles[at(t)].corners;
     Eigen::Matrix2d legs;
     legs << corners[1] - corners[0], corners[2] - corners[0];
-    Eigen::Matrix<double, 3, 2> of_corners; // gradients of the barycentric coordinates
-    of_corners.bottomRows<2>()           = legs.inverse();
-    of_corners.row(0)                    = -of_corners.row(1) - of_corners.row(2);
+    const auto of_corners                = meshes::triangle_geometry(legs).shape_gradients;
     Eigen::Matrix<double, 3, 2> gradient = Eigen::Matrix<double, 3, 2>::Zero();
     for (int k = 0; k < 3; ++k)
     {
@@ -180,6 +174,8 @@ Eigen::VectorXd PlateSheet::correction(const BendingLoad &load,
   std::map<int, EdgeMeans> means; // of the curvature at clamps
   for (const EdgeSide &one : edge_sides)
   {
+    if (!load.is_clamped[at(one.edge)])
+      continue;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const auto &[part, weight] : points_on_a_side())
       mean += weight * curvature_at(one.rim.triangle, on_side(one.rim, part));
@@ -203,18 +199,15 @@ double PlateSheet::mean_curvature(const Eigen::VectorXd &deflection) const
   double sum = 0., area = 0.;
   for (int t = 0; t < static_cast<int>(plate.mesh.triangles.size()); ++t)
   {
-    const auto &corners = plate.mesh.triangles[at(t)].corners;
-    Eigen::Matrix2d legs;
-    legs << corners[1] - corners[0], corners[2] - corners[0];
     for (int k = 0; k < 3; ++k)
     {
       Eigen::Vector3d middle      = Eigen::Vector3d::Constant(4. / 9.);
       middle(k)                   = 1. / 9.;
       const Eigen::Vector3d kappa = plate.values(t, middle, deflection).tail<3>();
-      sum += legs.determinant() / 3. *
+      sum += plate.area(t) / 3. *
              (kappa(0) * kappa(0) + kappa(1) * kappa(1) + 0.5 * kappa(2) * kappa(2));
-      area += legs.determinant() / 3.;
     }
+    area += plate.area(t);
   }
   return std::sqrt(sum / area);
 }

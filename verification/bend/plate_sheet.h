@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace homespun::verification

@@ -3,7 +3,6 @@
 
 #include "homogenization/bracket/plate_waves.h"
 #include "meshes/plain/errors.h"
-#include "meshes/plain/index.h"
 #include "verification/cell/discretization_distance.h"
 
 #include <cmath>
@@ -12,7 +11,6 @@ namespace homespun::verification
 {
 using homogenization::PlateWaves;
 using homogenization::WrinkleOnset;
-using meshes::at;
 
 namespace
 {
@@ -28,17 +26,6 @@ WrinkleOnset parabola(const PlateWaves &waves, const Eigen::Vector2d &direction,
                right = value(near.wavenumber + step), bend = left - 2. * middle + right;
   return {near.wavenumber + 0.5 * step * (left - right) / bend,
           middle - (left - right) * (left - right) / (8. * bend)};
-}
-
-/// Mean of D over the cell, holes counting as zero.
-Eigen::Matrix3d mean_bending_stiffness(const homogenization::UnitCell &cell,
-                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase)
-{
-  const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
-  Eigen::Matrix3d mean        = Eigen::Matrix3d::Zero();
-  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
-    mean += areas(t) / cell.lattice.area() * stiffness_of_phase[at(cell.mesh.material(t))];
-  return mean;
 }
 
 /// @param row has the wavelength of D^H
@@ -74,10 +61,11 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
         homogenization::stress_of_compression(on_mesh.torus, unit.stiffness_of_phase(), n));
     };
     const PlateWaves drawn = waves(cell.drawn), finer = waves(cell.finer);
-    const Eigen::Vector3d kappa(n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1));
-    const double D      = kappa.dot(cell.drawn.solved.stiffness * kappa),
-                 mean_D = kappa.dot(
-                   mean_bending_stiffness(unit, cell.drawn.bending_stiffness_of_phase) * kappa);
+    const Eigen::Vector3d kappa = homogenization::curvature_across(n);
+    const double D              = kappa.dot(cell.drawn.solved.stiffness * kappa),
+                 mean_D         = kappa.dot(homogenization::mean_of_materials(
+                                              cell.drawn.torus, cell.drawn.bending_stiffness_of_phase) *
+                                            kappa);
     for (const int n_cells : cells_per_wave)
     {
       WrinkleRow row;

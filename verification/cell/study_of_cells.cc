@@ -3,6 +3,8 @@
 
 #include "homogenization/cell/corners.h"
 #include "homogenization/lint/cell_reading.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
 #include "verification/cell/cell_files.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/json_files.h"
@@ -24,6 +26,23 @@ double factor_of_bars(const UnitCell &cell)
     homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
   const double order = 2. * std::min(1., corners.exists ? corners.strongest : 1.);
   return 1.25 / (1. - std::pow(2., -order));
+}
+
+void refuse_cells_without_sheets(const std::vector<UnitCell> &cells)
+{
+  std::vector<std::string> faults;
+  for (const UnitCell &cell : cells)
+    try
+    {
+      meshes::tile(cell.mesh, cell.lattice, 1, 1);
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      for (const std::string &fault : bad.faults())
+        faults.push_back(cell.file + ": " + fault);
+    }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
 }
 
 std::vector<OwedClaim> owed_of_cells(const std::vector<UnitCell> &cells)

@@ -32,6 +32,9 @@ struct StudyDescription
 /// a margin (grid convergence index).
 double factor_of_bars(const homogenization::UnitCell &cell);
 
+/// @throws BadInput with the faults of all cells that cannot be tiled to a sheet, by their files
+void refuse_cells_without_sheets(const std::vector<homogenization::UnitCell> &cells);
+
 /// The claims that are owed of every cell that is homogenized.
 std::vector<OwedClaim> owed_of_cells(const std::vector<homogenization::UnitCell> &cells);
 

@@ -3,7 +3,6 @@
 
 #include "homogenization/fem/homogenize.h"
 #include "meshes/plain/errors.h"
-#include "meshes/plain/sheet.h"
 #include "verification/bend/plate_sheet.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/converge/converge_cases.h"
@@ -130,8 +129,7 @@ public:
 private:
   void refuse() const override
   {
-    for (const UnitCell &cell : cells())
-      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+    refuse_cells_without_sheets(cells());
   }
 
   nlohmann::ordered_json inputs() override

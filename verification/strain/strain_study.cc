@@ -53,8 +53,7 @@ private:
   void refuse() const override
   {
     check_yarns(cells(), "--references", asked.references);
-    for (const UnitCell &cell : cells())
-      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet
+    refuse_cells_without_sheets(cells());
   }
 
   nlohmann::ordered_json inputs() override

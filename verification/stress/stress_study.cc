@@ -3,7 +3,6 @@
 
 #include "homogenization/fem/homogenize.h"
 #include "meshes/plain/errors.h"
-#include "meshes/plain/sheet.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/command/data_folder.h"
@@ -73,8 +72,7 @@ public:
 private:
   void refuse() const override
   {
-    for (const UnitCell &cell : cells())
-      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+    refuse_cells_without_sheets(cells());
   }
 
   nlohmann::ordered_json inputs() override

@@ -3,10 +3,10 @@
 
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
-#include "meshes/plain/sheet.h"
 #include "verification/bend/bend_study.h"
 #include "verification/cell/assessed_cells.h"
 #include "verification/cell/study_inputs.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/command/data_folder.h"
 #include "verification/converge/converge_cases.h"
 #include "verification/converge/converge_study.h"
@@ -80,7 +80,7 @@ private:
       try
       {
         cells.push_back(homogenization::read_unit_cell(file, communicator));
-        meshes::tile(cells.back().mesh, cells.back().lattice, 1, 1);
+        refuse_cells_without_sheets({cells.back()});
       }
       catch (const meshes::BadInput &bad)
       {

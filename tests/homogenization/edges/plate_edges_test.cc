@@ -53,6 +53,7 @@ TEST(exact_plate_edges, along_stripes_have_their_closed_forms)
     EXPECT_LT(edge.clamped.cwiseAbs().maxCoeff(), 1e-9 * period) << "no layer";
   }
 }
+
 namespace
 {
 /// A part that has no symmetry at all.
@@ -77,28 +78,40 @@ Eigen::Matrix3d stiffness_of(const UnitCell &cell)
     .stiffness;
 }
 
-Eigen::Vector2d inwards(const std::size_t side)
+Eigen::Vector2d inwards(const std::size_t side, const meshes::Lattice &lattice)
 {
-  return (side % 2 == 0 ? 1. : -1.) * Eigen::Vector2d::Unit(static_cast<int>(side / 2));
+  const auto axis             = static_cast<int>(side / 2);
+  const Eigen::Vector2d along = lattice.vectors.row(1 - axis).normalized();
+  const Eigen::Vector2d n(-along(1), along(0));
+  const bool is_near = side % 2 == 0;
+  return (lattice.vectors.row(axis).dot(n) > 0.) == is_near ? n : Eigen::Vector2d(-n);
 }
 
 /// Bending along an edge and twisting, with the curvature across it that leaves it without moment.
-Eigen::Matrix<double, 3, 2> free_of_moment_across(const std::size_t side, const Eigen::Matrix3d &D)
+Eigen::Matrix<double, 3, 2> free_of_moment_across(const Eigen::Vector2d &n,
+                                                  const Eigen::Matrix3d &D)
 {
-  const int n = static_cast<int>(side / 2);
+  const Eigen::Vector2d t(n(1), -n(0));
+  const Eigen::RowVector3d across(n(0) * n(0), n(1) * n(1), 2. * n(0) * n(1));
   Eigen::Matrix<double, 3, 2> K;
-  K << Eigen::Vector3d::Unit(1 - n), Eigen::Vector3d::Unit(2);
-  K.row(n) -= D.row(n) * K / D(n, n);
+  K << t(0) * t(0), t(0) * n(0), t(1) * t(1), t(1) * n(1), 2. * t(0) * t(1),
+    t(0) * n(1) + t(1) * n(0);
+  K -= across.transpose() * (across * D * K) / across.dot(across * D);
   return K;
+}
+
+UnitCell lopsided(const int n)
+{
+  return cell_of(skewed_lattice(), n, n,
+                 {isotropic("soft", 1e6, 0.2, 5e-4, 1.), isotropic("hard", 1e7, 0.4, 5e-4, 1.)},
+                 lopsided_part);
 }
 
 /// The largest difference between the slips of a plate and the tensions of its analogous membrane,
 /// between the beams and the slips, and between the bulk terms, each over the largest of them.
 Eigen::Vector3d distance_of_analogy(const int n)
 {
-  const UnitCell cell = cell_of(
-    square_lattice(period), n, n,
-    {isotropic("soft", 1e6, 0.2, 5e-4, 1.), isotropic("hard", 1e7, 0.4, 5e-4, 1.)}, lopsided_part);
+  const UnitCell cell    = lopsided(n);
   const PlateEdges plate = edges_of_plate(cell, {});
   EdgeOptions options;
   options.order                    = 2;
@@ -118,8 +131,8 @@ Eigen::Vector3d distance_of_analogy(const int n)
     add(0, plate.sides[of_side].slip.slope.eval(),
         (membrane.sides[of_side].tension.transpose() * to_strain).eval());
     // Along the edge with the sheet on the left, and to the left.
-    const Eigen::Vector2d n             = inwards(of_side), t(n(1), -n(0));
-    const Eigen::Matrix<double, 3, 2> K = free_of_moment_across(of_side, D),
+    const Eigen::Vector2d n             = inwards(of_side, cell.lattice), t(n(1), -n(0));
+    const Eigen::Matrix<double, 3, 2> K = free_of_moment_across(n, D),
                                       m = plate.sides[of_side].moment * K;
     const Eigen::Matrix2d d             = membrane.sides[of_side].slip * to_strain * K;
     for (int k = 0; k < 2; ++k)
@@ -163,7 +176,6 @@ UnitCell pierced(const UnitCell &cell)
   result.phases.pop_back();
   return result;
 }
-
 } // namespace
 
 // Tensions and slips of the analogous membrane, another element and other unknowns, are slips and
@@ -176,6 +188,42 @@ TEST(order_plate_edges, come_to_those_of_the_analogous_membrane)
   {
     EXPECT_LT(fine(k), 0.5 * coarse(k)) << k;
     EXPECT_LT(finer(k), 0.5 * fine(k)) << k;
+  }
+}
+
+// On the edge the plate stays as it is clamped: c_a and b_a are what is left far inside.
+TEST(invariant_plate_edges, clamped_modes_cancel_the_deflection_on_the_edge_and_decay)
+{
+  const UnitCell cell   = lopsided(8);
+  const TorusMesh torus = glued(cell.mesh, cell.lattice);
+  const PlateCell bent  = solve_plate_cell(torus, cell.bending_stiffness_of_phase());
+  EdgeOptions options;
+  options.kept           = 1e-9;
+  const PlateEdges edges = edges_of_plate(cell, options);
+  const Eigen::MatrixX2d fractions =
+    (cell.mesh.vertices.rowwise() - cell.mesh.vertices.row(0)) * cell.lattice.vectors.inverse();
+  for (std::size_t side = 0; side < 4; ++side)
+  {
+    const PlateEdge &edge   = edges.sides[side];
+    const Eigen::Vector2d n = inwards(side, cell.lattice);
+    for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+    {
+      if (std::abs(fractions(v, static_cast<int>(side / 2)) - static_cast<double>(side % 2)) > 1e-9)
+        continue;
+      const int glued_vertex = torus.vertex_of_original[static_cast<std::size_t>(v)];
+      for (int a = 0; a < 3; ++a)
+      {
+        Eigen::Vector3d expected = -bent.deflection.block<3, 1>(3 * glued_vertex, a);
+        expected(0) -= edge.slip.value(a);
+        expected.tail<2>() -= edge.slip.slope(a) * n;
+        const Eigen::Vector3d mode = edge.clamped.row(v).segment<3>(3 * a);
+        EXPECT_LT(std::abs(mode(0) - expected(0)), 1e-9 * period * period) << side;
+        EXPECT_LT((mode - expected).tail<2>().norm(), 1e-9 * period) << side;
+      }
+    }
+    const int n_vertices = cell.mesh.n_vertices();
+    EXPECT_LT(edge.clamped.bottomRows(n_vertices).cwiseAbs().maxCoeff(),
+              1e-4 * edge.clamped.topRows(n_vertices).cwiseAbs().maxCoeff());
   }
 }
 
@@ -197,7 +245,7 @@ TEST(exact_plate_edges, of_a_hole_are_those_of_a_part_without_stiffness)
   {
     const PlateEdge &one = edges.sides[side], &other = expected.sides[side];
     EXPECT_LT((one.slip.slope - other.slip.slope).norm(), 10. * contrast * one.slip.slope.norm());
-    const Eigen::Matrix<double, 3, 2> along = free_of_moment_across(side, D);
+    const auto along = free_of_moment_across(inwards(side, cell.lattice), D);
     EXPECT_LT(((one.moment - other.moment) * along).norm(),
               10. * contrast * (one.moment * along).norm());
   }

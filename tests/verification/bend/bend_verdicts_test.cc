@@ -93,6 +93,10 @@ TEST(tripwire_bend_verdicts, without_a_bar_an_equilibrium_or_an_error_nothing_is
   }
   const auto nothing = judged_rows({row_of("affine", 1e-9, 1e-9), row_of("localized", 0., 0.)});
   EXPECT_EQ(nothing.at("localized p").outcome, Outcome::inconclusive);
+  // A placebo to which a method adds something.
+  const auto placebo = judged_rows({row_of("affine", 1e-9, 0.), row_of("localized", 0.5, 0.5)});
+  EXPECT_EQ(placebo.at("localized p").outcome, Outcome::fail);
+  EXPECT_EQ(placebo.at("localized n").outcome, Outcome::fail);
   // A load that was left out altogether: its claims are owed.
   std::vector<OwedClaim> owed;
   add_owed_of_bending("made", "roll", "linear", owed);

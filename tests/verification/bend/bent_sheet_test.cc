@@ -106,6 +106,27 @@ TEST(exact_bent_sheet, lies_at_its_clamp_with_its_slope)
   EXPECT_LT(at_clamp(full).normal, 0.1 * at_clamp(with_edges).normal);
 }
 
+// Of the images of a vertex any may be drawn first: the near one or the far one.
+TEST(invariant_bent_sheet, errors_do_not_depend_on_the_numbering_of_the_cell)
+{
+  const homogenization::UnitCell unit = three_stripes(4, 10);
+  homogenization::UnitCell backwards  = unit;
+  const int n                         = unit.mesh.n_vertices();
+  for (int v = 0; v < n; ++v)
+    backwards.mesh.vertices.row(v) = unit.mesh.vertices.row(n - 1 - v);
+  backwards.mesh.triangles = n - 1 - unit.mesh.triangles.array();
+  const BendingCell cell(unit), other(backwards);
+  for (const char *load : {"cantilever-1", "cantilever-2", "twist", "pressure"})
+  {
+    const auto errors = errors_of(cell, load, 4, 6), same = errors_of(other, load, 4, 6);
+    for (std::size_t m = 0; m < errors.size(); ++m)
+    {
+      EXPECT_NEAR(same[m].position, errors[m].position, 1e-8) << load << ' ' << bending_methods[m];
+      EXPECT_NEAR(same[m].normal, errors[m].normal, 1e-8) << load << ' ' << bending_methods[m];
+    }
+  }
+}
+
 TEST(exact_bent_sheet, of_one_material_is_the_homogenized_plate)
 {
   const homogenization::UnitCell unit = tests::cell_of(
