@@ -62,10 +62,10 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
     };
     const PlateWaves drawn = waves(cell.drawn), finer = waves(cell.finer);
     const Eigen::Vector3d kappa = homogenization::curvature_across(n);
-    const double D              = kappa.dot(cell.drawn.solved.stiffness * kappa),
-                 mean_D         = kappa.dot(homogenization::mean_of_materials(
-                                              cell.drawn.torus, cell.drawn.bending_stiffness_of_phase) *
-                                            kappa);
+    const Eigen::Matrix3d mean =
+      homogenization::mean_of_materials(cell.drawn.torus, cell.drawn.bending_stiffness_of_phase);
+    const double D      = kappa.dot(cell.drawn.solved.stiffness * kappa),
+                 mean_D = kappa.dot(mean * kappa);
     for (const int n_cells : cells_per_wave)
     {
       WrinkleRow row;
