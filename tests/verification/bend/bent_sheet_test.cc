@@ -60,6 +60,27 @@ TEST(order_bent_sheet, is_first_with_the_homogenized_plate_alone_and_second_with
   EXPECT_NEAR(of_method[full], 1., 0.25);
 }
 
+// Where no edge stands on another one and nothing is symmetric: in k eps all terms leave normals
+// that fall with the number of cells, and positions in k eps² that do not grow with it.
+TEST(order_bent_sheet, is_the_same_on_an_oblique_lattice)
+{
+  const homogenization::UnitCell unit = tests::cell_of(
+    tests::skewed_lattice(), 8, 10,
+    {homogenization::isotropic("soft", 1e6, 0.1, 5e-4, 400.),
+     homogenization::isotropic("hard", 2e7, 0.4, 5e-4, 400.)},
+    [](const double f1, const double f2)
+    { return f1 > 0.25 && f1 < 0.75 && f2 > 0.1 && f2 < (f1 < 0.5 ? 0.5 : 0.7) ? 1 : 0; });
+  const BendingCell cell(unit);
+  const double of_corners = std::log(6.) / std::log(3.);
+  for (const char *load : {"roll", "cantilever-1", "cantilever-2", "twist", "pressure"})
+  {
+    const auto few = errors_of(cell, load, 3, 12), many = errors_of(cell, load, 6, 6);
+    EXPECT_LT(many[full].position, of_corners * few[full].position) << load;
+    EXPECT_LT(many[full].normal, 0.75 * few[full].normal) << load; // half of second order
+    EXPECT_GT(many[with_edges].normal, 0.75 * few[with_edges].normal) << load;
+  }
+}
+
 // The homogenized sheet has a solution: what halved quads change falls, with the lift at clamps
 // too.
 TEST(order_bent_sheet, macro_problem_with_all_terms_converges)
