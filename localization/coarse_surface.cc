@@ -85,9 +85,14 @@ void CoarseSurface::add_vertex(const int vertex, const std::vector<std::vector<i
 
 /// Adds the neighbours of a vertex where they determine its derivatives.
 /// @param n_terms 5: a quadric; 2: a plane
-bool CoarseSurface::fit(const int vertex, const std::vector<int> &ring, const int n_terms,
+bool CoarseSurface::fit(const int vertex, std::vector<int> ring, const int n_terms,
                         const double tolerance)
 {
+  // Round the tip of a slit the other side of a vertex lies where it does, and tells no slope.
+  ring.erase(std::remove_if(ring.begin(), ring.end(),
+                            [&](const int v)
+                            { return mesh.vertices.row(v) == mesh.vertices.row(vertex); }),
+             ring.end());
   const auto n = static_cast<Eigen::Index>(ring.size());
   meshes::Points d(n, 2);
   for (Eigen::Index k = 0; k < n; ++k)

@@ -71,7 +71,7 @@ private:
   };
 
   void add_vertex(int vertex, const std::vector<std::vector<int>> &adjacent);
-  bool fit(int vertex, const std::vector<int> &ring, int n_terms, double tolerance);
+  bool fit(int vertex, std::vector<int> ring, int n_terms, double tolerance);
   void find_seams(const std::vector<int> &space_of_rest);
 
   meshes::TriangleMesh mesh;

@@ -57,16 +57,26 @@ double fade_at(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fin
   return fine.seam_distance(v) < fade ? smooth_step(fine.seam_distance(v) / fade) : 1.;
 }
 
+/// A panel without edges on lattice lines is as without edges.
+UpsamplerOptions without_edges(const meshes::HomogenizedCell &cell, UpsamplerOptions options)
+{
+  if (EdgeModes(cell, options).are_there())
+    options.anchor = Anchor::lattice;
+  return options;
+}
+
 /// Modes of the bent cell at the fine vertices.
 BentModes bent_modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fine,
                                 const std::vector<Panel> &panels, const PlacedVertices &placed)
 {
-  const BentModes of_cell = bent_modes(cell, placed.options);
+  const BentModes with_edges = bent_modes(cell, placed.options),
+                  without    = bent_modes(cell, without_edges(cell, placed.options));
   BentModes result(fine.n_vertices(), 9);
   for (int v = 0; v < fine.n_vertices(); ++v)
   {
-    const Panel &panel = panels[static_cast<std::size_t>(fine.panel(v))];
-    result.row(v)      = fade_at(cell, fine, v, placed.options) *
+    const Panel &panel       = panels[static_cast<std::size_t>(fine.panel(v))];
+    const BentModes &of_cell = panel.edges.empty() ? without : with_edges;
+    result.row(v)            = fade_at(cell, fine, v, placed.options) *
                     at_place<Eigen::Matrix<double, 1, 9>>(
                       of_cell, point_of(cell, placed.coarse_rest, panel, fine, v));
   }
@@ -80,11 +90,8 @@ CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::Fi
 {
   const UpsamplerOptions &options = placed.options;
   const EdgeModes near_edges(cell, options);
-  // A panel without edges on lattice lines is as without edges.
-  UpsamplerOptions plain = options;
-  if (near_edges.are_there())
-    plain.anchor = Anchor::lattice;
-  const CellModes with_edges = cell_modes(cell, options), without = cell_modes(cell, plain);
+  const CellModes with_edges = cell_modes(cell, options),
+                  without    = cell_modes(cell, without_edges(cell, options));
   CellModes result;
   for (int v = 0; v < fine.n_vertices(); ++v)
   {

@@ -17,8 +17,8 @@ namespace homespun::localization
 /// @param cell homogenized cell whose modes are superposed; its stiffness is not used
 /// @param coarse panels at rest and how they are sewn; its positions are not used
 /// @param fine made by meshes::fine_cloth() from that cell and that coarse cloth
-/// @throws BadInput where the coarse cloth has faults, the three do not belong together, or edges
-///   are asked for
+/// @throws BadInput where the coarse cloth has faults, the three do not belong together, or options
+///   contradict each other
 PlacedVertices placed_garment(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &coarse,
                               const meshes::FineCloth &fine, const UpsamplerOptions &options = {});
 } // namespace homespun::localization

@@ -35,11 +35,27 @@ void add_faults_of(const Eigen::Matrix3d &stiffness, const std::string &name,
     faults.push_back(name + " is not positive definite; expected an effective stiffness");
 }
 
+bool all_finite(const CellEdges &edges)
+{
+  return edges.bulk[0].allFinite() && edges.bulk[1].allFinite() &&
+         std::all_of(edges.sides.begin(), edges.sides.end(),
+                     [](const CellEdge &edge)
+                     {
+                       return edge.slip.allFinite() && edge.tension.allFinite() &&
+                              edge.clamped.allFinite() && edge.free.allFinite();
+                     });
+}
+
 /// What every cell fulfils, whoever made it.
 std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::string &path)
 {
   std::vector<std::string> faults = faults_of(cell.mesh, path);
   const auto add = [&](const std::string &message) { faults.push_back(path + ": " + message); };
+  if (cell.mesh.material.size() > 0 && (cell.mesh.material.minCoeff() < 0 ||
+                                        cell.mesh.material.maxCoeff() >= cell.mesh.n_triangles()))
+    add("/material goes from " + std::to_string(cell.mesh.material.minCoeff()) + " to " +
+        std::to_string(cell.mesh.material.maxCoeff()) +
+        "; expected phases from 0, no more than triangles");
   if (!cell.chi.allFinite())
     add("/chi holds values that are not finite");
   if (cell.chi.rows() != cell.mesh.n_vertices())
@@ -75,6 +91,8 @@ std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::strin
       add("/chi_quadratic/" + law + " is not zero at the anchor, vertex " +
           std::to_string(cell.anchor));
   }
+  if (cell.edges && !all_finite(*cell.edges))
+    add("/edges holds values that are not finite");
   if (!(cell.areal_density > 0.) || !(cell.areal_density < 1e300))
     add("/areal_density is " + std::to_string(cell.areal_density) +
         " kg/m^2; expected a positive number");

@@ -114,10 +114,6 @@ CellEdges read_edges(const Hdf5Reader &file, const std::string &path, const unsi
     const Hdf5Reader::Shape shape = {static_cast<unsigned long long>(edge.n_cells), n, 2, 3};
     edge.clamped = by_mode<EdgeModes>(file.numbers(name_of_modes("clamped", side), shape));
     edge.free    = by_mode<EdgeModes>(file.numbers(name_of_modes("free", side), shape));
-    if (!edge.slip.allFinite() || !edge.tension.allFinite() || !edge.clamped.allFinite() ||
-        !edge.free.allFinite())
-      throw BadInput(path + ": edge " + std::to_string(side) +
-                     " of /edges holds values that are not finite");
   }
   return edges;
 }

@@ -73,6 +73,7 @@ void Hdf5Writer::write(const std::string &name, const Shape &shape, const double
 
 void Hdf5Writer::write(const std::string &name, const Shape &shape, const int *values)
 {
+  make_groups(file, name);
   require_made(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()),
                                     sizes_of(shape).data(), values) >= 0,
                path + ": dataset " + name + " finds no memory");

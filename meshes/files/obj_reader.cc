@@ -62,6 +62,7 @@ public:
       read_line(continued + line);
       continued.clear();
     }
+    read_line(continued); // of a file that ends in a backslash
     if (input.bad())
       throw BadInput(file + ": cannot be read to its end");
     if (content.faces.empty() && faults.empty())

@@ -17,8 +17,13 @@ if typing.TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def _column(texts: list[str]) -> NDArray[typing.Any]:
+_NAMES = {"cell", "load", "reference", "method", "frame", "frame_crc32"}  # text, also of digits
+
+
+def _column(name: str, texts: list[str]) -> NDArray[typing.Any]:
     """Numbers where all entries are some or empty, which is not a number; else text."""
+    if name in _NAMES:
+        return numpy.array(texts, dtype=str)
     try:
         return numpy.array([float(text) if text else numpy.nan for text in texts])
     except ValueError:
@@ -28,7 +33,7 @@ def _column(texts: list[str]) -> NDArray[typing.Any]:
 def _table(path: pathlib.Path) -> NDArray[numpy.void]:
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
-    columns = {name: _column([row[k] for row in rows]) for k, name in enumerate(header)}
+    columns = {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(header)}
     table = numpy.empty(len(rows), dtype=[(name, values.dtype) for name, values in columns.items()])
     for name, values in columns.items():
         table[name] = values

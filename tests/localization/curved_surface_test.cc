@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 using namespace homespun;
 using namespace homespun::localization;
 
@@ -105,6 +108,44 @@ TEST(exact_curved_surface, curvature_and_normal_of_a_quadratic_deflection_are_ex
         .norm(),
       1e-9);
     EXPECT_LT((rows.row(v).segment<3>(3) - normal).norm(), 1e-11);
+  }
+}
+
+// Round the tip of a slit without width two vertices lie in one place at rest.
+TEST(exact_curved_surface, curvature_is_exact_beside_a_slit)
+{
+  meshes::TriangleMesh mesh =
+    meshes::coarse_sheet({0., 0.}, tests::square_lattice(1.).vectors, 6, 6);
+  // Cut along the line from the edge to the middle: triangles above it get vertices of their own.
+  const int n = mesh.n_vertices();
+  std::vector<int> above(static_cast<std::size_t>(n), -1);
+  int n_vertices = n;
+  for (int v = 0; v < n; ++v)
+    if (mesh.vertices(v, 1) == 3. && mesh.vertices(v, 0) < 2.5)
+      above[static_cast<std::size_t>(v)] = n_vertices++;
+  mesh.vertices.conservativeResize(n_vertices, 2);
+  for (int v = 0; v < n; ++v)
+    if (above[static_cast<std::size_t>(v)] >= 0)
+      mesh.vertices.row(above[static_cast<std::size_t>(v)]) = mesh.vertices.row(v);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    double height = 0.;
+    for (int k = 0; k < 3; ++k)
+      height += mesh.vertices(mesh.triangles(t, k), 1) / 3.;
+    for (int k = 0; k < 3 && height > 3.; ++k)
+      if (const int its = above[static_cast<std::size_t>(mesh.triangles(t, k))]; its >= 0)
+        mesh.triangles(t, k) = its;
+  }
+  ASSERT_EQ(n_vertices, n + 3);
+  Positions<3> current(n_vertices, 3);
+  current << mesh.vertices, mesh.vertices.col(0).cwiseProduct(mesh.vertices.col(1));
+  CoarseSurface surface(mesh);
+  const auto &rows = surface.values(PositionsOf<3>(current.data(), current.rows(), 3));
+  for (int v = 0; v < n_vertices; ++v)
+  {
+    const double n3 =
+      1. / std::sqrt(1. + mesh.vertices.row(v).squaredNorm()); // of the normal of z = x y
+    EXPECT_LT((rows.row(v).head<3>() - Eigen::RowVector3d(0., 0., 2. * n3)).norm(), 1e-9) << v;
   }
 }
 

@@ -162,6 +162,10 @@ class Results(WithCell):
             self.assertEqual(table["error_mean_m"][0], 1.2345678901234567e-05)
             self.assertTrue(numpy.isnan(table["error_mean_m"][1]))
             self.assertEqual(table[table["load"] == "strip-2"]["strain"], [0.1])
+            pathlib.Path(folder, "upsample.csv").write_text(
+                "frame,frame_crc32,strain\n0001,12345678,0.1\n", encoding="utf-8")
+            table = homespun.results(folder)["upsample"]
+            self.assertEqual((table["frame"][0], table["frame_crc32"][0]), ("0001", "12345678"))
 
     def test_tables_of_a_newer_format_are_refused_and_older_ones_read(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -2,6 +2,7 @@
 #include "verification/cell/assessed_cell.h"
 
 #include "verification/cell/algebraic_limit.h"
+#include "verification/cell/discretization_distance.h"
 #include "verification/cell/energy_order.h"
 #include "verification/record/claim.h"
 
@@ -173,6 +174,7 @@ void add_estimate(const UnitCell &cell, const unsigned long max_dofs, const MPI_
   finer.second_order.clear();
   ++finer.refine;
   assessed.uncertainty =
+    factor_of_bars(cell) *
     (homogenization::homogenize(cell, finer, communicator).stiffness - assessed.result.stiffness)
       .cwiseAbs();
 }

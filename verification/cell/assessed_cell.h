@@ -22,8 +22,9 @@ struct AssessedCell
 {
   homogenization::Homogenization result;
   homogenization::HomogenizationOptions options;
-  /// |C − C of P2 on the once more refined mesh|, entry by entry [N/m]: the bar of a cell without a
-  /// bracket; nothing where there is one, or where that mesh would exceed the limit of DoFs.
+  /// factor_of_bars() |C − C of P2 on the once more refined mesh|, entry by entry [N/m]: the bar of
+  /// a cell without a bracket, since C^H lies beyond that mesh; nothing where there is one, or
+  /// where that mesh would exceed the limit of DoFs.
   std::optional<Eigen::Matrix3d> uncertainty;
   std::vector<Verdict> checks;
   /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and

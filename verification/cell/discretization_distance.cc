@@ -10,12 +10,13 @@ namespace homespun::verification
 {
 double DiscretizationDistance::uncertainty(const double order) const
 {
-  return safety() * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
+  return safety() *
+         (std::abs(p1_to_refined) + std::abs(p2_to_refined) / (std::pow(2., order) - 1.));
 }
 
 double DiscretizationDistance::safety() const
 {
-  return p2_to_refined < p1_to_p2 ? 1.25 : safety_unconfirmed;
+  return std::abs(p2_to_refined) < std::abs(p1_to_p2) ? 1.25 : safety_unconfirmed;
 }
 
 double order_of_p2(const homogenization::UnitCell &cell, const double highest)
@@ -23,5 +24,10 @@ double order_of_p2(const homogenization::UnitCell &cell, const double highest)
   const homogenization::Singularity corners = homogenization::singularity_of(
     homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
   return corners.exists ? std::min(2. * corners.strongest, highest) : highest;
+}
+
+double factor_of_bars(const homogenization::UnitCell &cell)
+{
+  return 1.25 / (1. - std::pow(2., -order_of_p2(cell, 2.)));
 }
 } // namespace homespun::verification

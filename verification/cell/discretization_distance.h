@@ -10,7 +10,8 @@ namespace homespun::verification
 /// F where no convergence is seen.
 constexpr double safety_unconfirmed = 3.;
 
-/// Measured distances between discretizations of one sheet: means over its vertices, in any unit.
+/// Measured distances between discretizations of one sheet, means over its vertices, or differences
+/// of a number, P1 − P2 and so on; in any unit.
 struct DiscretizationDistance
 {
   double p1_to_p2 = 0., p1_to_refined = 0., p2_to_refined = 0.;
@@ -38,4 +39,9 @@ constexpr double order_of_p2_energy = 4.;
 /// The order in which P2 displacements converge on uniformly refined meshes, in the mean: twice the
 /// exponent of the strongest corner of the cell, and at most `highest`.
 double order_of_p2(const homogenization::UnitCell &cell, double highest);
+
+/// 1.25 / (1 - 2^-q), q twice the exponent of the strongest corner and at most 2, the order of the
+/// energy of P1: by it the distance from the once refined mesh is the error of the given one, with
+/// a margin (grid convergence index).
+double factor_of_bars(const homogenization::UnitCell &cell);
 } // namespace homespun::verification

@@ -58,12 +58,6 @@ std::vector<std::string> notes_on_cuts(const std::vector<UnitCell> &cells)
   return notes;
 }
 
-std::string fingerprint(const std::string &text)
-{
-  return printed(hashed(start_of_hash, Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(
-                                         text.data(), static_cast<Eigen::Index>(text.size()))));
-}
-
 void check_names(const std::vector<UnitCell> &cells)
 {
   for (std::size_t a = 0; a < cells.size(); ++a)

@@ -21,7 +21,4 @@ std::string fingerprint(const homogenization::UnitCell &cell);
 /// Which cells are not cut from the cloth as they are drawn, and by how much: a sentence of each,
 /// for every result.
 std::vector<std::string> notes_on_cuts(const std::vector<homogenization::UnitCell> &cells);
-
-/// A hash of a text.
-std::string fingerprint(const std::string &text);
 } // namespace homespun::verification

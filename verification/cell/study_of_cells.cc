@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/study_of_cells.h"
 
-#include "homogenization/cell/corners.h"
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
@@ -11,22 +10,12 @@
 #include "verification/record/on_root.h"
 #include "verification/record/provenance.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <utility>
 
 namespace homespun::verification
 {
 using homogenization::UnitCell;
-
-double factor_of_bars(const UnitCell &cell)
-{
-  const homogenization::Singularity corners = homogenization::singularity_of(
-    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
-  const double order = 2. * std::min(1., corners.exists ? corners.strongest : 1.);
-  return 1.25 / (1. - std::pow(2., -order));
-}
 
 void refuse_cells_without_sheets(const std::vector<UnitCell> &cells)
 {

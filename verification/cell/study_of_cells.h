@@ -27,11 +27,6 @@ struct StudyDescription
   std::string file = "study.json"; ///< in which it is said
 };
 
-/// 1.25 / (1 - 2^-q), q twice the exponent of the strongest corner and at most 2, the order of the
-/// energy of P1: by it the distance from the once refined mesh is the error of the given one, with
-/// a margin (grid convergence index).
-double factor_of_bars(const homogenization::UnitCell &cell);
-
 /// @throws BadInput with the faults of all cells that cannot be tiled to a sheet, by their files
 void refuse_cells_without_sheets(const std::vector<homogenization::UnitCell> &cells);
 

@@ -34,7 +34,7 @@ void ConvergeCommand::add(CommandLine &line)
      "(cells per sheet), coarse (coarse triangles per cell), edges (cells per sheet, with the "
      "terms of edges), bending\n"
      "(cells per sheet that is bent: only where it is named), strain (periodic loads "
-     "under biot), time (steps of the coarse cloth).\n"
+     "under the law of the cell), time (steps of the coarse cloth).\n"
      "An order that has not settled is INCONCLUSIVE, not a failure: exit status 4.\n"
      "Example:\n  homespun converge mycell.prm --quick\n"
      "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale\n"

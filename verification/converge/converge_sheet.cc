@@ -167,7 +167,8 @@ ConvergenceResult refine_coarse_mesh(const UnitCell &cell,
   double rise = -1.; // relative
   for (std::size_t k = 1; k < energy.levels.size(); ++k)
     rise = larger(rise, *energy.levels[k].value / *energy.levels[k - 1].value - 1.);
-  result.verdicts.push_back(at_most("coarse-energy-falls", {}, rise, 1e-10));
+  if (energy.levels.size() > 1)
+    result.verdicts.push_back(at_most("coarse-energy-falls", {}, rise, 1e-10));
   const double floor      = 1e-11 * std::abs(*energy.levels.back().value);
   const OrderLimit limits = {0.9, 2.1};
   energy.judgement        = judge_values(energy.sizes(), energy.values(), limits, floor);

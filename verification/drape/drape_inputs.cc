@@ -5,6 +5,7 @@
 #include "verification/cell/study_inputs.h"
 #include "verification/drape/draped_cell.h"
 #include "verification/ellipticity/default_law.h"
+#include "verification/record/checksum.h"
 
 #include <algorithm>
 #include <fstream>
@@ -21,7 +22,7 @@ namespace
 std::string fingerprint_of_file(const std::string &path)
 {
   std::ifstream input(path, std::ios::binary);
-  return fingerprint(
+  return checksum_of_text(
     std::string((std::istreambuf_iterator<char>(input)), std::istreambuf_iterator<char>()));
 }
 } // namespace

@@ -12,6 +12,7 @@
 #include "verification/drape/reference_run.h"
 #include "verification/ellipticity/default_law.h"
 #include "verification/ellipticity/yarn_cells.h"
+#include "verification/record/checksum.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/provenance.h"
@@ -91,7 +92,7 @@ private:
 
   void work() override
   {
-    drape.name = fingerprint(json_text(with_cells(inputs())));
+    drape.name = checksum_of_text(json_text(with_cells(inputs())));
     if (drape.schedule.duration() < scene.duration * (1. - 1e-6))
       drape.note(scene.name + ": runs for " + short_text(drape.schedule.duration()) + " s of the " +
                  short_text(scene.duration) + " s asked for, whole frames of " +

@@ -115,12 +115,12 @@ private:
     // chi is zero.
     const auto align = [&](PositionRows &positions)
     {
-      int held = 0;
-      while (Load(known.load).is_periodic() && sheet.cell_vertex(held) != cell.anchor)
-        ++held;
+      if (!Load(known.load).is_periodic())
+        return;
+      Eigen::Index held = 0; // at the lattice point where the cell is anchored
+      (sheet.mesh.vertices.rowwise() - sheet.origin).rowwise().squaredNorm().minCoeff(&held);
       const Eigen::RowVectorXd translation = positions.row(held) - reference.row(held);
-      if (Load(known.load).is_periodic())
-        positions.rowwise() -= translation;
+      positions.rowwise() -= translation;
     };
     const Eigen::VectorXd distance = given.distance(file, kept.mesh, side(), reference, align);
     const auto itself              = std::find_if(levels.begin(), levels.end(),

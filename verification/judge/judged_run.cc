@@ -36,6 +36,11 @@ JudgedRun::JudgedRun(const JudgeOptions &options)
     , run(finished_run(options.run))
     , files(files_by_level(options.files))
 {
+  const fs::path inside =
+    fs::weakly_canonical(options.run).lexically_relative(fs::weakly_canonical(options.output));
+  if (!inside.empty() && *inside.begin() != "..")
+    throw BadInput("--output " + options.output + ": holds the run that is judged, " + options.run +
+                   ", which would be deleted; expected another folder");
   const std::string command = run.value("command", "");
   if ((command != "strain" && command != "drape") || run["inputs"].contains("judged"))
     throw BadInput(options.run + ": is a run of `homespun " + command +

@@ -19,7 +19,7 @@ std::vector<Wave> around(const Wave &wave, const double step)
   for (const auto &[i, j] :
        {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}})
     if (const Wave next = bloch_wave(wave.k(0) + i * step, wave.k(1) + j * step);
-        next.k != Eigen::Vector2d::Zero())
+        (next.k - next.k.array().round().matrix()).cwiseAbs().maxCoeff() > 1e-9) // no translation
       waves.push_back(next);
   return waves;
 }

@@ -53,13 +53,26 @@ std::vector<PathRows> paths_of(const std::vector<StabilityRow> &rows)
   return paths;
 }
 
+/// What was asked nowhere says nothing.
+Verdict open_without(const int n_asked, Verdict verdict)
+{
+  if (n_asked == 0)
+    verdict.outcome = Outcome::inconclusive;
+  return verdict;
+}
+
 Verdict verdict_on_sides(const PathRows &path)
 {
   double widest = 0.;
+  int n_asked   = 0;
   for (const StabilityRow &row : path.levels)
     if (row.outcome != "not-reached")
+    {
+      ++n_asked;
       widest = larger(widest, (row.beta - row.lower) / (1. + std::abs(row.beta)));
-  return at_most("beta-sides", path.words, widest, 3. * MarginSearch::closeness);
+    }
+  return open_without(n_asked,
+                      at_most("beta-sides", path.words, widest, 3. * MarginSearch::closeness));
 }
 
 Verdict verdict_on_long_waves(const PathRows &path)
@@ -71,10 +84,7 @@ Verdict verdict_on_long_waves(const PathRows &path)
       ++n_asked;
       n_wrong += (row.acoustic > 0.) != (row.long_waves == "stable");
     }
-  Verdict verdict = none_of("long-waves", path.words, n_wrong, Outcome::fail);
-  if (n_asked == 0)
-    verdict.outcome = Outcome::inconclusive;
-  return verdict;
+  return open_without(n_asked, none_of("long-waves", path.words, n_wrong, Outcome::fail));
 }
 
 Verdict verdict_on_reaching(const PathRows &path)
@@ -88,12 +98,16 @@ Verdict verdict_on_reaching(const PathRows &path)
 
 Verdict verdict_on_meshes(const PathRows &path)
 {
-  int n_differ = 0;
+  int n_differ = 0, n_asked = 0;
   for (const StabilityRow &row : path.levels)
     for (const StabilityRow &finer : path.levels)
-      n_differ += row.mesh == "given" && finer.mesh == "refined" && row.strain == finer.strain &&
-                  row.outcome != finer.outcome;
-  return none_of("stable-on-both-meshes", path.words, n_differ, Outcome::inconclusive);
+      if (row.mesh == "given" && finer.mesh == "refined" && row.strain == finer.strain)
+      {
+        n_asked += row.outcome != "not-reached" && finer.outcome != "not-reached";
+        n_differ += row.outcome != finer.outcome;
+      }
+  return open_without(
+    n_asked, none_of("stable-on-both-meshes", path.words, n_differ, Outcome::inconclusive));
 }
 
 Verdict verdict_on_patterns(const PathRows &path)
@@ -160,11 +174,12 @@ std::vector<Verdict> verdicts_on_path(const Words &of_path, const CellAssembly &
     // Where the energy jumps from one equilibrium to another, its differences say nothing.
     if (!(check.bar <= 1e-3 * std::abs(check.work)))
       verdicts.back().outcome = Outcome::inconclusive;
+    verdicts.push_back(
+      none_of("load-minimum", of_path,
+              std::count_if(path.levels.begin(), path.levels.end(),
+                            [](const LoadLevel &level) { return !level.is_stable; }),
+              Outcome::inconclusive));
   }
-  verdicts.push_back(none_of("load-minimum", of_path,
-                             std::count_if(path.levels.begin(), path.levels.end(),
-                                           [](const LoadLevel &level) { return !level.is_stable; }),
-                             Outcome::inconclusive));
   return verdicts;
 }
 
@@ -172,7 +187,7 @@ Verdict verdict_on_rest(const std::string &cell, const std::string &law, const B
 {
   const Margin margin = bloch.of(at_rest(bloch.assembly));
   return at_most("beta-at-rest", {{"cell", cell}, {"law", law}},
-                 std::max(std::abs(margin.beta - 1.), std::abs(margin.lower - 1.)),
+                 larger(std::abs(margin.beta - 1.), std::abs(margin.lower - 1.)),
                  6. * MarginSearch::closeness);
 }
 
@@ -204,8 +219,9 @@ void add_owed_of_paths(const std::string &cell, const std::vector<std::string> &
       if (const Words path = {{"cell", cell}, {"law", law}, {"method", method}};
           law != "linear" || method == "resolved")
       {
-        owed.insert(owed.end(), {{"load-levels", path}, {"load-minimum", path}});
-        owed.push_back({"load-work", path, "load-levels"});
+        owed.push_back({"load-levels", path});
+        for (const char *id : {"load-work", "load-minimum"})
+          owed.push_back({id, path, "load-levels"});
       }
 }
 

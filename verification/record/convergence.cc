@@ -45,23 +45,16 @@ std::string fault_of(const std::vector<double> &h, const std::vector<double> &va
   return "";
 }
 
-/// The least-squares slope of ln e against ln h on the levels [first, last).
+/// The slope on the levels [first, last).
 double slope_of(const std::vector<double> &h, const std::vector<double> &errors,
                 const std::size_t first, const std::size_t last)
 {
-  const double n = static_cast<double>(last - first);
-  double mean_x = 0., mean_y = 0., covariance = 0., variance = 0.;
-  for (std::size_t k = first; k < last; ++k)
+  const auto of = [&](const std::vector<double> &values)
   {
-    mean_x += std::log(h[k]) / n;
-    mean_y += std::log(errors[k]) / n;
-  }
-  for (std::size_t k = first; k < last; ++k)
-  {
-    covariance += (std::log(h[k]) - mean_x) * (std::log(errors[k]) - mean_y);
-    variance += (std::log(h[k]) - mean_x) * (std::log(h[k]) - mean_x);
-  }
-  return covariance / variance;
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first),
+                               values.begin() + static_cast<std::ptrdiff_t>(last));
+  };
+  return log_slope(of(h), of(errors));
 }
 
 /// How far orders may still go in the direction of their last change: a change that falls by a
@@ -133,6 +126,23 @@ void conclude(const std::vector<double> &orders, const OrderLimit &limit, OrderJ
   result.why = why + ": the last two are " + number(before) + " and " + number(last);
 }
 } // namespace
+
+double log_slope(const std::vector<double> &x, const std::vector<double> &y)
+{
+  const auto n  = static_cast<double>(x.size());
+  double mean_x = 0., mean_y = 0., covariance = 0., variance = 0.;
+  for (std::size_t k = 0; k < x.size(); ++k)
+  {
+    mean_x += std::log(x[k]) / n;
+    mean_y += std::log(y[k]) / n;
+  }
+  for (std::size_t k = 0; k < x.size(); ++k)
+  {
+    covariance += (std::log(x[k]) - mean_x) * (std::log(y[k]) - mean_y);
+    variance += (std::log(x[k]) - mean_x) * (std::log(x[k]) - mean_x);
+  }
+  return covariance / variance;
+}
 
 OrderLimit about(const double order, const double tolerance)
 {

@@ -39,6 +39,9 @@ struct OrderLimit
   }
 };
 
+/// Least-squares slope of log y against log x, for positive values.
+double log_slope(const std::vector<double> &x, const std::vector<double> &y);
+
 /// order ± tolerance.
 OrderLimit about(double order, double tolerance = 0.1);
 

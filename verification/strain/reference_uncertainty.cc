@@ -59,7 +59,8 @@ double at_strain(const std::map<double, Bar> &bars, const double strain, const d
 /// |P1 − P2| of a sheet over that of a smaller one.
 double growth(const DiscretizationDistance &at_full, const DiscretizationDistance &of)
 {
-  return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown_length;
+  return at_full.reached && of.p1_to_p2 != 0. ? std::abs(at_full.p1_to_p2 / of.p1_to_p2)
+                                              : unknown_length;
 }
 } // namespace
 
@@ -99,7 +100,7 @@ ReferenceUncertainty::measure(const Measurement &what) const
     distances[k].mean  = distances_of(positions[k], mean_distance);
     distances[k].max   = distances_of(positions[k], largest_distance);
     distances[k].force = distances_of(forces[k], [&](const double a, const double b)
-                                      { return std::abs(a - b) / std::abs(forces[k][0]); });
+                                      { return (a - b) / std::abs(forces[k][0]); });
   }
   add_errors(what, sheet, positions, distances);
   return distances;
@@ -283,7 +284,11 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     carry_over.max                          = growth(full.max, small.max);
     carry_over.force                        = growth(full.force, small.force);
     for (const auto &[name, of] : small.errors)
-      carry_over_of_errors[name] = growth(full.errors.at(name), of);
+    {
+      const auto its = full.errors.find(name);
+      carry_over_of_errors[name] =
+        its == full.errors.end() ? unknown_length : growth(its->second, of);
+    }
   }
   std::vector<double> strains = {large_strain};
   if (scope.largest_strain > large_strain)

@@ -104,8 +104,8 @@ public:
   std::map<std::string, ErrorBar> of_errors(Law law, double strain) const;
 
 private:
-  /// Distances, of the means and of the largest over the vertices [m], and of the force over that
-  /// of P1 [-].
+  /// Distances, of the means and of the largest over the vertices [m]; of the force by how much it
+  /// falls, over that of P1 [-].
   struct Distances
   {
     DiscretizationDistance mean = unknown_distance, max = mean, force = mean;

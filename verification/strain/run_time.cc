@@ -3,6 +3,7 @@
 
 #include "localization/upsampler.h"
 #include "meshes/plain/errors.h"
+#include "verification/cell/discretization_distance.h"
 #include "verification/method/coarse_model.h"
 #include "verification/method/warped_rest.h"
 #include "verification/record/number_text.h"
@@ -62,19 +63,19 @@ public:
     best         = p2.positions;
     Timed p1     = fine(1);
     p1.row.ranks = p2.row.ranks = n_ranks_of(communicator);
-    on_root(
-      communicator,
-      [&]()
-      {
-        bar = bar_of_p2(uncertainty, {cell.name, load.name, options.law, options.strain}, sheet.n1);
-        p2.row.mean = bar;
-        p2.row.note += std::string(p2.row.note.empty() ? "" : "; ") +
-                       "what the others are held against: its error is its own error bar";
-        write("fine-p2", p2);
-        write("fine-p1", p1);
-        full_resolution();
-        coarse_cloths();
-      });
+    on_root(communicator,
+            [&]()
+            {
+              bar = bar_of_p2(uncertainty, {cell.name, load.name, options.law, options.strain},
+                              sheet.n1, order_of_p2(cell, order_of_p2_sheet));
+              p2.row.mean = bar;
+              p2.row.note += std::string(p2.row.note.empty() ? "" : "; ") +
+                             "what the others are held against: its error is its own error bar";
+              write("fine-p2", p2);
+              write("fine-p1", p1);
+              full_resolution();
+              coarse_cloths();
+            });
     return {};
   }
 
@@ -313,7 +314,7 @@ private:
 } // namespace
 
 double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &level,
-                 const int n_cells)
+                 const int n_cells, const double order)
 {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   double small = unknown, full = unknown, of_p2 = unknown;
@@ -324,7 +325,11 @@ double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &lev
     {
       n_small = row.cells;
       if (row.reference == name_of(level.law) || !std::isfinite(of_p2))
-        of_p2 = row.p2_to_refined / row.strain;
+      {
+        // P2 in the place of P1.
+        const DiscretizationDistance its = {row.p1_to_p2, row.p2_to_refined, row.p2_to_refined};
+        of_p2                            = its.uncertainty(order) / row.strain;
+      }
     }
   for (const UncertaintyRow &row : rows)
     if (row.cell == level.cell && row.load == level.load && row.is_of_reference() &&

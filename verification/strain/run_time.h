@@ -78,10 +78,11 @@ std::string run_time_study(const SheetUnderLoad &of, const RunTimeOptions &optio
                            MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell);
 
-/// The error bar of P2 on the given mesh [m]: |P2 − refined P2| measured on the small
-/// sheet, carried over by the ratio of |P1 − P2| at full size and there (linear law), per strain.
-/// Where the small sheet was not measured under the law of the level, it counts under another.
-/// NaN where a row is missing.
-/// @param rows of uncertainty.csv
-double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &level, int n_cells);
+/// The error bar of P2 on the given mesh [m], F |P2 − refined P2| 2^q / (2^q − 1) as in
+/// cell/discretization_distance.h: measured on the small sheet, carried over by the ratio of
+/// |P1 − P2| at full size and there (linear law), per strain. Where the small sheet was not
+/// measured under the law of the level, it counts under another. NaN where a row is missing.
+/// @param rows of uncertainty.csv @param order q of P2
+double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &level, int n_cells,
+                 double order);
 } // namespace homespun::verification

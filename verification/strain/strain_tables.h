@@ -234,7 +234,7 @@ struct UncertaintyRow
   double p1_to_p2_max = none, p1_to_refined_max = none, p2_to_refined_max = none; ///< [m]
   double bar = none, bar_max = none; ///< per strain and cell side
   double force_p1_to_p2 = none, force_p1_to_refined = none, force_p2_to_refined = none,
-         force_bar = none; ///< of the force along the load, over that of P1 [-]
+         force_bar = none; ///< fall of the force along the load, over that of P1 [-]
 
   bool is_of_reference() const
   {
@@ -258,9 +258,9 @@ struct UncertaintyRow
     column("p2_minus_refined_p2_max_m", &UncertaintyRow::p2_to_refined_max, Domain::not_negative);
     column("uncertainty_per_strain_and_side", &UncertaintyRow::bar, Domain::not_negative);
     column("uncertainty_max_per_strain_and_side", &UncertaintyRow::bar_max, Domain::not_negative);
-    column("force_p1_minus_p2", &UncertaintyRow::force_p1_to_p2, Domain::not_negative);
-    column("force_p1_minus_refined_p2", &UncertaintyRow::force_p1_to_refined, Domain::not_negative);
-    column("force_p2_minus_refined_p2", &UncertaintyRow::force_p2_to_refined, Domain::not_negative);
+    column("force_p1_minus_p2", &UncertaintyRow::force_p1_to_p2, Domain::real);
+    column("force_p1_minus_refined_p2", &UncertaintyRow::force_p1_to_refined, Domain::real);
+    column("force_p2_minus_refined_p2", &UncertaintyRow::force_p2_to_refined, Domain::real);
     column("force_uncertainty", &UncertaintyRow::force_bar, Domain::not_negative);
   }
 };

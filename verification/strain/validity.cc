@@ -84,7 +84,8 @@ void end_at_loss(ValidityRow &row)
     (row.relation == ">" ? "at every level, to " : "to ") + percent_text(row.largest);
   row.relation = "=";
   for (double *const strain : {&row.largest, &row.lower, &row.upper})
-    *strain = std::fmin(*strain, row.elliptic_up_to);
+    if (*strain > row.elliptic_up_to) // what is not known stays so
+      *strain = row.elliptic_up_to;
 }
 
 /// The rows, and as those of `base` the ones that are the base of the method that their case speaks
@@ -180,9 +181,10 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
     for (const StrainRow &row : all)
       if (is_of_case(row, one))
       {
-        if (!row.is_reached())
+        const bool is_its = row.method == one.method;
+        if (!row.is_reached() || (is_its && !std::isfinite(row.mean)))
           first_unreached = std::min(first_unreached, row.strain);
-        else if (row.method == one.method && std::isfinite(row.mean))
+        else if (is_its)
           of_case.push_back(row);
       }
     std::sort(of_case.begin(), of_case.end(),

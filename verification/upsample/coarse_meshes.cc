@@ -39,7 +39,10 @@ RestMesh read_rest(const UpsampleOptions &options)
   rest.cloth = rest.units.has_vt ? meshes::read_cloth(options.rest_file, options.vt_unit)
                                  : meshes::flat_cloth(rest.faces, options.rest_file);
   if (rest.units.has_vt)
+  {
+    rest.cloth.positions   = rest.faces.positions; // in metres
     rest.units.may_be_flat = meshes::is_flat(rest.faces);
+  }
   return rest;
 }
 
@@ -67,9 +70,12 @@ void check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
     {
       faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
     }
+  std::vector<std::string> given = {options.cell_file, options.rest_file, options.validity_file};
   for (const FrameFile &frame : frames)
-    if (lies_in(frame.file, options.output))
-      faults.push_back(frame.file + ": lies in the folder of the results, " + options.output +
+    given.push_back(frame.file);
+  for (const std::string &file : given)
+    if (!file.empty() && lies_in(file, options.output))
+      faults.push_back(file + ": lies in the folder of the results, " + options.output +
                        "; expected it elsewhere: choose another --output");
   if (faults.empty())
     return;

@@ -41,6 +41,8 @@ std::optional<WholeCells> whole_cells(const meshes::Lattice &lattice, const Clot
     return {};
   for (const int quads : {1, 2}) // of the sides of a cell
   {
+    if (cloth.n_triangles() != 2. * quads * quads * n(0) * n(1))
+      continue;
     WholeCells whole = {static_cast<int>(n(0)), static_cast<int>(n(1)), quads, {}};
     whole.rest = meshes::coarse_sheet(grain.origin + low * lattice.vectors, lattice.vectors / quads,
                                       quads * whole.n1, quads * whole.n2);

@@ -203,6 +203,13 @@ TEST(tripwire_cell_file, values_that_no_cell_has_are_not_written)
   HomogenizedCell not_anchored = some_cell();
   not_anchored.anchor          = 1;
   EXPECT_THROW(write_cell(not_anchored, file), BadInput);
+  HomogenizedCell of_no_phase  = some_cell();
+  of_no_phase.mesh.material(0) = -1;
+  EXPECT_THROW(write_cell(of_no_phase, file), BadInput);
+  HomogenizedCell without_bulk = some_cell();
+  without_bulk.edges           = CellEdges();
+  without_bulk.edges->bulk[1].setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THROW(write_cell(without_bulk, file), BadInput);
   EXPECT_FALSE(std::filesystem::exists(file));
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
 }

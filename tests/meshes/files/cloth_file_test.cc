@@ -122,7 +122,7 @@ TEST(exact_obj_file, comments_groups_quads_negative_indices_and_line_ends_are_re
   const std::string content = "# a cloth\r\nmtllib a.mtl\no cloth\n" + square +
                               "vn 0 0 1\nusemtl a\ng b\ns off\nf 1/1/1 2/2/1 3/3/1 4/4/1 # quad\n"
                               "v +2 0 0 0.5 0.5 0.5\nv 2e0 1 0\nvt 2 0 0\nvt 2 1\n"
-                              "f 2/2 -2/-2 \\\n -1/-1\nf 2/2 6/6 3/3\n";
+                              "f 2/2 -2/-2 \\\n -1/-1\nf 2/2 6/6 3/3 \\";
   const TemporaryFile file("good.obj", content);
   const ClothMesh cloth = read_cloth(file.path, 0.5);
   ASSERT_EQ(cloth.n_triangles(), 4);

@@ -132,6 +132,11 @@ class Judge(JudgingLevels):
                 ("is not there", self.folder / "nothing.npy")):
             self.refused(words, *arguments)
         self.refused("no run", path, study=self.folder)
+        for output in (self.study, self.study.parent):
+            result = run("judge", self.study, path, "--output", output, "--overwrite")
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("holds the run that is judged", result.stderr)
+        self.assertTrue((self.study / "run.json").exists())
         # A study without --keep has nothing to judge against, and what was judged is no study.
         without = self.folder / "without"
         shutil.copytree(self.study, without, ignore=shutil.ignore_patterns("positions"))

@@ -2,6 +2,7 @@
 #include "homogenization/fem/homogenize.h"
 #include "tests/homogenization/cell/cells.h"
 #include "tests/verification/method/models.h"
+#include "verification/record/convergence.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/claims/strain_verdicts.h"
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests of what the page answers first: what up-sampling does to the error, why, with which C^H."""
 import json
+import math
 import os
 import shutil
 import unittest
@@ -85,6 +86,15 @@ class SentenceTest(unittest.TestCase):
         self.assertEqual(line["mark"], "open")
         self.assertIn("that the error bars of both", line["sentence"])
         self.assertEqual(self.line(1e-2, 1e-2 - 3.0 * BAR)["mark"], "better")
+
+    def test_bars_that_bear_no_claim_bear_no_sentence(self):
+        for beside, words in (({"error_bar_safety": 3.0}, "do not come together"),
+                              ({"error_bar_m": math.nan}, "an error bar is not known")):
+            base, best = row(1e-2), {**row(1e-3), **beside}
+            change, mark, said = answer.of_upsampling({**base, "method": "affine"}, best, "left")
+            self.assertEqual((change, mark), ("open", "open"))
+            self.assertIn(words, said)
+            self.assertIn("an amount that is open", answer.of_the_paper(answer.change_between(base, best)))
 
     def test_zero_is_said_to_round_off(self):
         self.assertIn("all of the error", self.line(1e-2, 1e-15)["sentence"])

@@ -70,19 +70,19 @@ class HeadlineTest(unittest.TestCase):
         def ways(error):
             return [
                 {**level, "way": way, "error_mean_per_cell": value}
-                for way, value in (("localized-10", 9e-2), ("localized-40", error),
+                for way, value in (("localized-10", 9e-2), ("localized-20", 2e-2), ("localized-40", error),
                                    ("affine-40", 5e-9), ("localized+p2-40", 5e-9))
             ]
 
         self.assertEqual(
-            finer_mesh_sentence(rows, ways(0.5e-2), "biot"),
+            finer_mesh_sentence(rows, ways(1e-2), "biot"),
             "2 coarse quads per cell side would take away 50 % of the error of the paper's method"
             " (strip-1, 1 %).",
         )
-        self.assertIn("would add 20 %", finer_mesh_sentence(rows, ways(1.2e-2), "biot"))
-        self.assertIn("by less than 5 %", finer_mesh_sentence(rows, ways(0.98e-2), "biot"))
-        self.assertEqual(finer_mesh_sentence(rows, ways(0.5e-2)[:1], "biot"), "")
-        self.assertEqual(finer_mesh_sentence(rows, ways(0.5e-2), "green"), "")
+        self.assertIn("would add 20 %", finer_mesh_sentence(rows, ways(2.4e-2), "biot"))
+        self.assertIn("by less than 5 %", finer_mesh_sentence(rows, ways(1.96e-2), "biot"))
+        self.assertEqual(finer_mesh_sentence(rows, ways(1e-2)[:1], "biot"), "")
+        self.assertEqual(finer_mesh_sentence(rows, ways(1e-2), "green"), "")
 
     def test_curves_of_the_first_screen_have_names_that_need_no_glossary(self):
         level = {"load": "strip-1", "strain": 0.01, "reference": "biot"}

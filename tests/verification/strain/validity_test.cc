@@ -77,3 +77,32 @@ TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
   EXPECT_EQ(validity_rows(rows)[4].relation, ">"); // the ladder ends at 0.01
   EXPECT_NE(validity_rows(rows)[4].note.find("no equilibrium"), std::string::npos);
 }
+
+TEST(exact_validity, what_was_not_reached_or_is_not_known_is_no_range)
+{
+  std::vector<StrainRow> rows;
+  for (const double strain : {0.001, 0.002, 0.004, 0.008})
+  {
+    StrainRow row       = {"cell", "strip-2", strain, "biot", "localized", 20, 800, 288000};
+    row.mean            = 1e-2 * row.strain;
+    row.per_cell        = row.strain;
+    row.per_fluctuation = 0.01;
+    row.uncertainty     = 0.1 * row.mean;
+    rows.push_back(row);
+  }
+  rows[2].mean = rows[2].per_cell = rows[2].per_fluctuation = StrainRow::none;
+  const auto of_cell = [&](const auto &...levels) { return validity_rows(rows, levels...)[3]; };
+  EXPECT_EQ(of_cell().limit, 0.01);
+  EXPECT_EQ(of_cell().largest, 0.002) << "the method found no equilibrium at 0.004";
+  EXPECT_NE(of_cell().note.find("no equilibrium"), std::string::npos);
+  // A bar wider than the limit, and a law that is lost.
+  rows[2] = rows[1];
+  for (StrainRow &row : rows)
+    row.uncertainty = 20. * rows.back().mean;
+  LevelRow rest = {"cell", "strip-2", "biot", 0.001}, lost = {"cell", "strip-2", "biot", 0.004};
+  rest.lost = 0, rest.least = 0.5;
+  lost.lost = 1, lost.least = -0.5;
+  const ValidityRow row = of_cell(std::vector<LevelRow>{rest, lost});
+  EXPECT_LT(row.largest, 0.004);
+  EXPECT_TRUE(std::isnan(row.lower)) << row.lower;
+}

@@ -43,6 +43,7 @@ TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-l
               "modes": ("modes",)}
 LIKELY = "most likely because"  # an inference: the budget splits the error of `localized`
 UNTOLD = "≈ 0"  # a change that the error bars cannot tell
+UNKNOWN = "open"  # a change whose error bars are not known
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
 PANEL = (1.4, 1.5)  # inches of a panel of the small Figure 3
@@ -213,6 +214,9 @@ def of_upsampling(base, best, size):
         return "0", "none", "nothing is to be added: the coarse cloth is exact to round-off."
     if after < style.ROUND_OFF:
         return "−100 %", "better", f"up-sampling takes away all of {of_what}, to round-off."
+    reason = tables.without_bars(base, best)
+    if reason:
+        return UNKNOWN, "open", f"what up-sampling does to {of_what} is open, because {reason}; {size}."
     bars = tables.bar_of(base) + tables.bar_of(best)
     if abs(base["error_mean_m"] - best["error_mean_m"]) <= bars:
         return UNTOLD, "open", (
@@ -234,15 +238,17 @@ def of_upsampling(base, best, size):
 def change_between(one, other):
     """How the error changes from one row to another: −74 %, +58 %, or what the bars cannot tell."""
     before, after = one["error_mean_per_cell"], other["error_mean_per_cell"]
-    if max(before, after) < style.ROUND_OFF or abs(
-        other["error_mean_m"] - one["error_mean_m"]
-    ) <= tables.bar_of(one) + tables.bar_of(other):
+    if max(before, after) < style.ROUND_OFF:
+        return UNTOLD
+    if tables.without_bars(one, other):
+        return UNKNOWN
+    if abs(other["error_mean_m"] - one["error_mean_m"]) <= tables.bar_of(one) + tables.bar_of(other):
         return UNTOLD
     return change_of(1.0 - after / before if before >= style.ROUND_OFF else -math.inf)
 
 
 def in_words(change):
-    return "less than the bar" if change == UNTOLD else change
+    return {UNTOLD: "less than the bar", UNKNOWN: "an amount that is open"}.get(change, change)
 
 
 def of_the_paper(change):

@@ -27,7 +27,7 @@ OPEN = {
     " solved finer.",
 }
 LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|uniaxial-\d|strip-\d|shear-frame)\b")
-METHOD = re.compile(r": ([\w+-]+) is closer to ")
+METHOD = re.compile(r": ([\w+-]+) is closer to ([\w-]+) than ")
 STRAIN = re.compile(r"\bat (?:strain )?(\d[\d.e-]*)( %)?")
 
 
@@ -70,7 +70,11 @@ def cause_of(verdict, budget):
     value = float(strain[1]) / (100.0 if strain[2] else 1.0)
     near = [key for key in known if key[0] == case[2] and abs(key[1] / value - 1.0) < 1e-6]
     method = METHOD.search(verdict["claim"])
-    left = why(known[near[0]]["all"] if near else None, method[1] if method else PAPER)
+    left = why(
+        known[near[0]]["all"] if near else None,
+        method[1] if method else PAPER,
+        reference=method[2] if method else None,
+    )
     return f"The error is left {left}." if left else ""
 
 

@@ -101,17 +101,19 @@ def finer_mesh_sentence(rows, ways, reference):
         if row["method"] != PAPER or row["reference"] != reference or style.is_infinite(row["load"]):
             continue
         quads = math.isqrt(int(row["coarse_triangles"]) // 2)
-        finer = [
-            (int(way["way"].rpartition("-")[2]), way["error_mean_per_cell"])
+        known = {
+            int(way["way"].rpartition("-")[2]): way["error_mean_per_cell"]
             for way in ways
             if (way["load"], way["strain"], way["reference"]) == (row["load"], row["strain"], reference)
             and way["way"].startswith(PAPER + "-")
             and way["way"].removeprefix(PAPER + "-").isdigit()
-        ]
-        finer = [(n, error) for n, error in finer if n >= 2 * quads and not math.isnan(error)]
-        if finer and row["error_mean_per_cell"] >= style.ROUND_OFF:
-            n, error = min(finer)
-            found.append((row, n / row["cells"], error / row["error_mean_per_cell"]))
+            and not math.isnan(way["error_mean_per_cell"])
+        }
+        finer = [n for n in known if n >= 2 * quads]
+        # Both against the same solution, which is not that of the row.
+        if finer and known.get(quads, 0.0) >= style.ROUND_OFF:
+            n = min(finer)
+            found.append((row, n / row["cells"], known[n] / known[quads]))
     if not found:
         return ""
     row, per_cell, left = found[0]

@@ -104,9 +104,21 @@ def gain_rows(gains):
     ]
 
 
+UNCONFIRMED = 3.0  # the factor of safety of an error bar where no convergence is seen
+
+
 def bar_of(row):
     """The bar of an error [m]; nan where none was measured."""
     return row.get("error_bar_m", math.nan)
+
+
+def without_bars(one, other):
+    """Why the error bars of two errors decide nothing, a clause, as the claims have it; else empty."""
+    if math.isnan(bar_of(one) + bar_of(other)):
+        return "an error bar is not known"
+    if max(row.get("error_bar_safety", 0.0) for row in (one, other)) >= UNCONFIRMED:
+        return "errors of P1, P2 and refined P2 do not come together"
+    return ""
 
 
 def error_entry(row):

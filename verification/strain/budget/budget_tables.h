@@ -45,8 +45,7 @@ struct BudgetRow
 ///   sheet     the reference and a second code's sheet, at one level of a load
 ///   p2-cell   C^H of P2 by two solvers; `load` and `reference` say nothing there
 ///   energies  the elastic energy of a small sheet in linear theory, between displacements above
-///   and
-///             self-equilibrated stresses below
+///             and self-equilibrated stresses below
 /// What a row has not, or a solver did not reach, is empty; `fault` says why.
 struct CrossCheckRow
 {

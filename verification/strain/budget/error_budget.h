@@ -11,10 +11,12 @@
 //
 //  1 the order of the cell at edges, each at the strain and law itself (edge_parts.h); S0 = u + R
 //    w(E) with chi anchored at the lattice, S4 the same with all terms of edges and chi of mean
-//    zero slip        slip of clamped edges, and with it the constant of chi selvedge    tension of
-//    free edges bulk        the force of strain gradients layer       modes that decay from the
-//    edges rest        S4 − T', in linear theory, times strain: what is of higher order in the
-//    cell, and
+//    zero:
+//    slip        slip of clamped edges, and with it the constant of chi
+//    selvedge    tension of free edges
+//    bulk        the force of strain gradients
+//    layer       modes that decay from the edges
+//    rest        S4 − T', in linear theory, times strain: what is of higher order in the cell, and
 //                corners between clamped and free edges. Against T', never against the reference
 //                that is explained. Of a cell without terms of edges S4 is S0
 //  2 geometric nonlinearity; û in equilibrium with the stress of the cell at finite strain, ŵ its

@@ -3,6 +3,7 @@
 
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
+#include "verification/record/convergence.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/loads.h"

@@ -2,6 +2,7 @@
 #include "verification/strain/claims/strain_verdicts.h"
 
 #include "verification/record/claim.h"
+#include "verification/record/convergence.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
@@ -227,23 +228,6 @@ bool is_shared(const std::string &reference)
 bool decides_slope(const std::vector<double> &strains)
 {
   return std::count_if(strains.begin(), strains.end(), is_in_window) >= 3;
-}
-
-double log_slope(const std::vector<double> &x, const std::vector<double> &y)
-{
-  const auto n  = static_cast<double>(x.size());
-  double mean_x = 0., mean_y = 0., covariance = 0., variance = 0.;
-  for (std::size_t k = 0; k < x.size(); ++k)
-  {
-    mean_x += std::log(x[k]) / n;
-    mean_y += std::log(y[k]) / n;
-  }
-  for (std::size_t k = 0; k < x.size(); ++k)
-  {
-    covariance += (std::log(x[k]) - mean_x) * (std::log(y[k]) - mean_y);
-    variance += (std::log(x[k]) - mean_x) * (std::log(x[k]) - mean_x);
-  }
-  return covariance / variance;
 }
 
 std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,

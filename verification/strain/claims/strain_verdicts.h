@@ -16,9 +16,6 @@ bool is_shared(const std::string &reference);
 /// Whether a study was asked for three levels from 1e-4 to 0.1, what decides a slope.
 bool decides_slope(const std::vector<double> &strains);
 
-/// Least-squares slope of log y against log x, for positive values.
-double log_slope(const std::vector<double> &x, const std::vector<double> &y);
-
 /// The claim by the three smallest levels of at least three. Where the slopes between them differ
 /// by more than the limit of the claim it is open, and so it is where they agree on an order
 /// between one and two; but not where they fall towards one as those of a first order beside a
@@ -29,14 +26,12 @@ Verdict verdict_of_smallest(const std::string &claim, Words words,
 
 /// Judges, for every cell and load among the rows of strain.csv:
 /// - every reference: an equilibrium is found at every level. FAIL where it is found at none and
-/// the
-///   law is not lost, open where some are missing, because a load whose limit was not shown may
+///   the law is not lost, open where some are missing, because a load whose limit was not shown may
 ///   have one beyond, and the law may end there
 /// - periodic loads, reference biot or yarn, the main one of the cell, where the study has three
-/// levels from 1e-4 to 0.1: the
-///   localized error falls as strain squared, slope 2 +- 0.1; or is zero at each (`solved_to`); or
-///   as strain squared or faster at the three smallest levels, where their two slopes agree
-///   (verdict_of_smallest()); FAIL where an error is not a number
+///   levels from 1e-4 to 0.1: the localized error falls as strain squared, slope 2 +- 0.1; or is
+///   zero at each (`solved_to`); or as strain squared or faster at the three smallest levels, where
+///   their two slopes agree (verdict_of_smallest()); FAIL where an error is not a number
 /// - sheet loads, the same reference: method_verdicts() of gains.h
 /// Levels beyond the loss decide no slope.
 /// @param strains that the study was asked for: what they cannot decide is no claim

@@ -7,6 +7,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/cell/cell_edges.h"
 #include "verification/method/coarse_model.h"
+#include "verification/record/convergence.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget/budget_rows.h"
 #include "verification/strain/budget/error_budget.h"

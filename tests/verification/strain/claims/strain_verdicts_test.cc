@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The judge, on synthetic rows: it must pass what is right and fail what is planted.
+#include "verification/record/convergence.h"
 #include "verification/strain/claims/strain_verdicts.h"
 
 #include <gtest/gtest.h>

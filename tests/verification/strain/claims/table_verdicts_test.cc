@@ -25,9 +25,9 @@ StrainRow row_of(const double mean, const double rms, const double max)
 UncertaintyRow ladder_of(const double p1, const double p2, const double refined)
 {
   UncertaintyRow row      = {"cell", "strip-1", "linear", 0.01, 4};
-  row.force_p1_to_p2      = std::abs(p1 - p2) / p1;
-  row.force_p1_to_refined = std::abs(p1 - refined) / p1;
-  row.force_p2_to_refined = std::abs(p2 - refined) / p1;
+  row.force_p1_to_p2      = (p1 - p2) / p1;
+  row.force_p1_to_refined = (p1 - refined) / p1;
+  row.force_p2_to_refined = (p2 - refined) / p1;
   return row;
 }
 
@@ -70,6 +70,7 @@ TEST(bound_table_verdicts, norms_stand_in_their_order)
   EXPECT_EQ(squared.value, 1.);
   EXPECT_EQ(verdict_of_norms({row_of(2., 4., 3.)}).outcome, Outcome::fail);
   EXPECT_EQ(verdict_of_norms({row_of(2., none, 3.)}).outcome, Outcome::fail);
+  EXPECT_EQ(verdict_of_norms({}).outcome, Outcome::inconclusive);
 }
 
 TEST(bound_table_verdicts, forces_of_nested_spaces_fall)
@@ -85,6 +86,7 @@ TEST(bound_table_verdicts, forces_of_nested_spaces_fall)
   EXPECT_EQ(verdict(ladder_of(10., 9., 9.)).outcome, Outcome::fail);  // P2 was not refined
   EXPECT_EQ(verdict(ladder_of(10., 9., 9.1)).outcome, Outcome::fail); // it rises
   EXPECT_EQ(verdict(ladder_of(10., 11., 9.)).outcome, Outcome::fail);
+  EXPECT_EQ(verdict(ladder_of(10., 11., 11.1)).outcome, Outcome::fail);
   // Where P1 is exact there is nothing to fall, and a nonlinear law or an infinite cloth has no
   // such theorem.
   EXPECT_TRUE(verdicts_of_nested_forces({ladder_of(10., 10., 10.)}).empty());
