@@ -79,7 +79,7 @@ double DrapeErrorBar::of_mesh_at(const std::size_t frame, const double fluctuati
 
 double DrapeErrorBar::of_time_step_at(const std::size_t frame, const double fluctuation_there) const
 {
-  return carried(of_time_step, fluctuation, frame, fluctuation_there);
+  return 1.25 * 2. * carried(halved_step, fluctuation, frame, fluctuation_there);
 }
 
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
@@ -110,14 +110,13 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
     if (!runs.advance(schedule, frame) || (!schedule.is_static && !halved.advance(schedule, frame)))
       return bar;
     const SpacePoints &p1 = runs.fine[0]->positions(), &p2 = runs.fine[1]->positions(),
-                      &refined = runs.fine[2]->positions();
-    DiscretizationDistance distance;
-    distance.p1_to_refined = mean_length(p1 - refined);
-    distance.p2_to_refined = mean_length(p2 - refined);
+                      &refined            = runs.fine[2]->positions();
+    const DiscretizationDistance distance = {mean_length(p1 - p2), mean_length(p1 - refined),
+                                             mean_length(p2 - refined)};
     bar.of_mesh.push_back(distance.uncertainty(order));
     const SpacePoints change =
       (upsampled(method, runs) - p1) - (upsampled(method, halved) - halved.fine[0]->positions());
-    bar.of_time_step.push_back(schedule.is_static ? 0. : 1.25 * 2. * mean_length(change));
+    bar.halved_step.push_back(schedule.is_static ? 0. : mean_length(change));
     bar.fluctuation.push_back(mean_length(refined - upsampled(affine, runs)));
   }
   return bar;

@@ -18,11 +18,12 @@ namespace homespun::verification
 /// and is carried over to the full sheet by the ratio of the two.
 struct DrapeErrorBar
 {
-  std::vector<double> of_mesh;      ///< of the reference, DiscretizationDistance::uncertainty() [m]
-  std::vector<double> of_time_step; ///< of the error [m]
-  std::vector<double> fluctuation;  ///< mean |refined P2 − coarse motion| [m]
+  std::vector<double> of_mesh;     ///< of the reference, DiscretizationDistance::uncertainty() [m]
+  std::vector<double> halved_step; ///< mean |e(h) − e(h/2)|, e of drape_error_bar() [m]
+  std::vector<double> fluctuation; ///< mean |refined P2 − coarse motion| [m]
 
-  /// Either of them on a sheet with another fluctuation [m]; not a number where it is not known.
+  /// The bar by mesh or time step on a sheet with another fluctuation [m]; not a number where it is
+  /// not known.
   double of_mesh_at(std::size_t frame, double fluctuation_there) const;
   double of_time_step_at(std::size_t frame, double fluctuation_there) const;
 };

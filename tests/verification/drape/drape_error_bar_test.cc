@@ -35,11 +35,15 @@ DrapeErrorBar bar_of(const double time_step, const TimeIntegration integration)
 TEST(order_drape_error_bar, the_part_of_the_time_step_is_of_first_order)
 {
   const DrapeErrorBar coarse = bar_of(0.01, TimeIntegration::implicit),
+                      middle = bar_of(0.005, TimeIntegration::implicit),
                       fine   = bar_of(0.0025, TimeIntegration::implicit);
-  ASSERT_EQ(coarse.of_time_step.size(), 3u);
-  ASSERT_EQ(fine.of_time_step.size(), 3u);
-  const double order = std::log(coarse.of_time_step[2] / fine.of_time_step[2]) / std::log(4.);
+  ASSERT_EQ(coarse.halved_step.size(), 3u);
+  ASSERT_EQ(fine.halved_step.size(), 3u);
+  const double order = std::log(coarse.halved_step[2] / fine.halved_step[2]) / std::log(4.);
   EXPECT_NEAR(order, 1., 0.2);
+  // The bar holds what three halvings change together.
+  EXPECT_GT(coarse.of_time_step_at(2, coarse.fluctuation[2]),
+            coarse.halved_step[2] + middle.halved_step[2] + fine.halved_step[2]);
   EXPECT_GT(fine.of_mesh[2], 0.);
   EXPECT_LT(fine.of_mesh[2], fine.fluctuation[2]);
   // What it is carried over with.
@@ -50,7 +54,7 @@ TEST(order_drape_error_bar, the_part_of_the_time_step_is_of_first_order)
 TEST(exact_drape_error_bar, equilibria_have_no_time_step)
 {
   const DrapeErrorBar bar = bar_of(0.01, TimeIntegration::equilibria);
-  ASSERT_EQ(bar.of_time_step.size(), 3u);
-  EXPECT_EQ(bar.of_time_step[2], 0.);
+  ASSERT_EQ(bar.halved_step.size(), 3u);
+  EXPECT_EQ(bar.of_time_step_at(2, bar.fluctuation[2]), 0.);
   EXPECT_GT(bar.of_mesh[2], 0.);
 }
