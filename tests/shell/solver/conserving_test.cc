@@ -191,6 +191,25 @@ TEST(invariant_conserving, the_work_of_every_term_is_the_change_of_its_energy_an
   }
 }
 
+// Between states that are near to each other both integrators have the same viscous forces.
+TEST(order_conserving, viscosity_is_that_of_the_implicit_step_but_for_the_square_of_the_change)
+{
+  const meshes::ClothMesh mesh = lying_sheet(5);
+  std::mt19937 generator(8);
+  const int n          = mesh.n_vertices();
+  const Vectors before = mesh.positions + 0.01 * random_matrix<Vectors>(generator, n, 3),
+                change = random_matrix<Vectors>(generator, n, 3);
+  const auto term      = viscosity_term(mesh, {anisotropic()}, 0.01);
+  term->begin_step({before, before, 0., 0.005});
+  const auto difference = [&](const double size)
+  {
+    const Vectors after    = before + size * change;
+    const Vectors implicit = gradient_of(*term, after);
+    return (discrete_gradient(*term, before, after) - implicit).norm() / implicit.norm();
+  };
+  EXPECT_NEAR(std::log2(difference(2e-5) / difference(1e-5)), 1., 0.1);
+}
+
 TEST(invariant_conserving, an_undamped_sheet_keeps_its_energy_however_long_the_step)
 {
   const meshes::ClothMesh mesh = lying_sheet(6);
