@@ -96,6 +96,17 @@ class SentenceTest(unittest.TestCase):
             self.assertIn(words, said)
             self.assertIn("an amount that is open", answer.of_the_paper(answer.change_between(base, best)))
 
+    def test_beyond_the_loss_of_the_law_nothing_is_said_to_gain_or_to_lose(self):
+        for after in (1e-3, 2e-2, 1e-15):
+            base, best = ({**row(error), "strain": 0.05, "law_lost_at": 0.0484, "method": "affine"}
+                          for error in (1e-2, after))
+            change, mark, said = answer.of_upsampling(base, best, "left")
+            self.assertEqual((change, mark), ("open", "open"))
+            self.assertIn("is open, because the law is lost at 4.84 %; left", said)
+            self.assertEqual(answer.change_between(base, best), "open")
+            best["law_lost_at"] = 0.0501
+            self.assertNotEqual(answer.of_upsampling(base, best, "left")[0], "open")
+
     def test_zero_is_said_to_round_off(self):
         self.assertIn("all of the error", self.line(1e-2, 1e-15)["sentence"])
         self.assertIn("nothing is to be added".capitalize(), self.line(1e-15, 1e-15)["sentence"])
@@ -208,6 +219,13 @@ class AnswerPageTest(PageTest):
             self.assertTrue(meaning, word)
         for word in ("anchor", "lift", "localized", "linear, biot, green, yarn"):
             self.assertIn(f"<dt>{word}</dt>", page)
+
+    def test_the_answer_is_open_where_the_range_says_that_the_law_is_lost(self):
+        self.edit_table("validity.csv",
+                        lambda rows: [{**row, "elliptic_up_to": "0.009"} for row in rows])
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("At 1 % strain up-sampling (localized) is open in shear-frame (the law is"
+                      " lost at 0.900 %).", self.page())
 
     def test_the_picture_is_of_the_load_that_leaves_most_and_says_whose_sheet_it_is(self):
         made = os.path.join(self.place, "made")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests of the first sentence of a page, of its one stiffness, and of what is said of both."""
+import math
 import unittest
 
 import report_path  # noqa: F401
@@ -17,7 +18,7 @@ class HeadlineTest(unittest.TestCase):
         """load -> (mark, change), as answer.line_of() has them."""
         return [
             {"load": load.replace("_", "-"), "mark": mark, "change": change, "gain": 0.5,
-             "left_per_cell": 1e-3, "valid": "5 %"}
+             "left_per_cell": 1e-3, "bar_per_cell": 2e-4, "valid": "5 %", "why_open": ""}
             for load, (mark, change) in marks.items()
         ]
 
@@ -39,6 +40,23 @@ class HeadlineTest(unittest.TestCase):
             " cannot be judged in strip-2, where no base was run.",
         )
 
+    def test_what_nothing_decides_is_open_and_is_not_said_to_pay_or_to_make_no_difference(self):
+        lines = self.lines(strip_1=("open", "≈ 0"), strip_2=("open", "open"),
+                           shear_frame=("open", "open"))
+        lines[1]["why_open"], lines[2]["why_open"] = "the law is lost at 4.84 %", "bars"
+        self.assertEqual(
+            headline(lines, "5 %", "full"),
+            "At 5 % strain up-sampling (full) makes no difference that can be told in strip-1; it"
+            " is open in strip-2 (the law is lost at 4.84 %) and shear-frame (bars).",
+        )
+        for line, load in zip(lines, ("periodic-11", "periodic-22", "periodic-12")):
+            line["load"] = load
+        line = infinite_line(lines)
+        self.assertIn("is open in periodic-22 (the law is lost at 4.84 %) and periodic-12 (bars).",
+                      line["short"])
+        self.assertNotIn("pay", line["short"])
+        self.assertEqual((line["change"], line["mark"]), ("≈ 0 / open", "open"))
+
     def test_a_method_of_ones_own_stands_beside_those_of_homespun(self):
         here = [{**row(error), "load": load, "method": method}
                 for load, errors in (("strip-1", (4e-3, 3e-3, 1e-3, 2e-3)),
@@ -51,15 +69,27 @@ class HeadlineTest(unittest.TestCase):
             " error is 2.00 (strip-1) and 0.500 (strip-2) times that of full.",
         )
         self.assertEqual(own_methods_sentence([r for r in here if r["method"] != "mine"]), "")
+        lost = [{**r, "strain": 0.01, "law_lost_at": 0.01} for r in here]
+        self.assertEqual(own_methods_sentence(lost), "")
 
     def test_the_infinite_cloth_has_one_line(self):
         lines = self.lines(strip_1=("better", "−40 %"), periodic_11=("better", "−50 %"),
                            periodic_12=("worse", "+9 %"))
         lines[0]["left_per_cell"], lines[1]["left_per_cell"] = 0.5, 1e-4  # of no account
+        lines[1]["valid"] = "2.4 %"
         line = infinite_line(lines)
         self.assertEqual(line["load"], "periodic-11, periodic-12")
         self.assertEqual(line["change"], "−50 %")
-        self.assertIn("at most 0.100 % of a cell side is left (periodic-12)", line["short"])
+        self.assertIn("at most 0.120 % of a cell side is left (periodic-12), error bar included.",
+                      line["short"])
+        self.assertEqual(line["valid"], "2.4 % / 5 %")
+        lines[1]["valid"] = "5 %"
+        lines[2]["bar_per_cell"] = math.nan
+        line = infinite_line([*lines, {**lines[1], "load": "periodic-22", "valid": "> 10 %"}])
+        self.assertEqual(line["valid"], "5 % / 5 % / > 10 %")  # one of each load
+        self.assertIn("at most 0.0300 % of a cell side is left (periodic-11), error bar included,"
+                      " and 0.100 % of a cell side, of an error bar that is not known, is left in"
+                      " periodic-12.", line["short"])
         self.assertIn("does not pay in periodic-12", line["short"])
         self.assertIsNone(infinite_line(self.lines(strip_1=("better", "−40 %"))))
 
@@ -83,6 +113,8 @@ class HeadlineTest(unittest.TestCase):
         self.assertIn("by less than 5 %", finer_mesh_sentence(rows, ways(1.96e-2), "biot"))
         self.assertEqual(finer_mesh_sentence(rows, ways(1e-2)[:1], "biot"), "")
         self.assertEqual(finer_mesh_sentence(rows, ways(1e-2), "green"), "")
+        rows[0]["law_lost_at"] = 0.009
+        self.assertEqual(finer_mesh_sentence(rows, ways(1e-2), "biot"), "")
 
     def test_curves_of_the_first_screen_have_names_that_need_no_glossary(self):
         level = {"load": "strip-1", "strain": 0.01, "reference": "biot"}

@@ -11,6 +11,7 @@ from figures.strain import error_figure
 from figures.style import percent, three
 from page import tables
 from page.answer_pictures import as_homespun, sheet_of_answer
+from page.bars import bar_of, law_lost, undecided
 from page.budget_contents import validity_text
 from page.headline import (
     PAPER,
@@ -43,7 +44,7 @@ TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-l
               "modes": ("modes",)}
 LIKELY = "most likely because"  # an inference: the budget splits the error of `localized`
 UNTOLD = "≈ 0"  # a change that the error bars cannot tell
-UNKNOWN = "open"  # a change whose error bars are not known
+UNKNOWN = "open"  # a change that no claim bears: beyond the law, or without bars that decide
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
 PANEL = (1.4, 1.5)  # inches of a panel of the small Figure 3
@@ -56,7 +57,15 @@ def answer_of(results, name, gallery):
             {"load", "title", "change", "mark", "coarse", "total", "sentence", "valid"}; "law" is
             law_sentence() at the largest chosen strain
     """
-    rows = results.reached(name)
+    lost = {
+        (row["load"], row["reference"]): row["elliptic_up_to"]
+        for row in results.validity
+        if row["cell"] == name
+    }
+    rows = [
+        {**row, "law_lost_at": lost.get((row["load"], row["reference"]), math.nan)}
+        for row in results.reached(name)
+    ]
     reference = tables.main_reference(rows)
     of_laws = rows
     rows = [row for row in rows if row["reference"] == reference]
@@ -88,7 +97,7 @@ def answer_of(results, name, gallery):
     if not lines:
         return None
     side = cell_side(results, name)
-    ratio = speed_ratio(results.reached(name), reference)
+    ratio = speed_ratio(rows, reference)
     chosen = {load: main_method({r["method"] for r in here if r["load"] == load})
               for load in {r["load"] for r in here}}
     spoken_of = style.ordered_methods(chosen.values())
@@ -97,7 +106,7 @@ def answer_of(results, name, gallery):
         *as_homespun(rows, base_rows(rows, gains), chosen), [reference], side, panel=PANEL
     )
     ways = [way for way in results.run_time if way["cell"] == name]
-    finer = finer_mesh_sentence(results.reached(name), ways, reference)
+    finer = finer_mesh_sentence(rows, ways, reference)
     return {
         "name": name,
         "strain": percent(strains[0]),
@@ -127,7 +136,7 @@ def answer_of(results, name, gallery):
             + (f", homespun ({listed(spoken_of)}) and its coarse cloth, not up-sampled"
                if spoken_of != [PAPER] else "")
             + "." + judged_sentence(own)
-            + " Grey: not resolved by the reference. All laws and variants stand below.",
+            + " Grey: up to the error bar of the smallest error. All laws and variants: below.",
             plotted=False,
         ),
     }
@@ -172,11 +181,12 @@ def line_of(load, affine, base, best, parts):
     reason = why(parts, method, left, best.get("reference"))
     size = f"{tables.length(left)} ({three(100.0 * after)} % of a cell side) are left"
     size += f" {reason}" if reason else ""
-    short = f"{tables.length_with_bar(left, tables.bar_of(best))}, {three(100.0 * after)} % of a cell side"
+    short = f"{tables.length_with_bar(left, bar_of(best))}, {three(100.0 * after)} % of a cell side"
     short += f", {reason}" if reason else ""
     line = {
         "load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": "",
         "paper": "", "short": f"{short}.", "beside": "", "gain": math.nan, "left_per_cell": after, "has_cause": None,
+        "bar_per_cell": bar_of(best) * (after / left if left > 0.0 else 0.0), "why_open": "",
     }
     if after >= style.ROUND_OFF:
         line["has_cause"] = bool(reason)
@@ -187,6 +197,8 @@ def line_of(load, affine, base, best, parts):
         )
     else:
         line["change"], line["mark"], words = of_upsampling(base, best, size)
+        if line["change"] == UNKNOWN:
+            line["why_open"] = undecided(base, best)
         before = base["error_mean_per_cell"]
         if after < style.ROUND_OFF:
             line["short"] = words
@@ -210,14 +222,14 @@ def of_upsampling(base, best, size):
         if base["method"] == "affine"
         else f"what its coarse cloth, {base['method']}, leaves"
     )
-    if before < style.ROUND_OFF and after < style.ROUND_OFF:
+    lost = law_lost(best)
+    if not lost and before < style.ROUND_OFF and after < style.ROUND_OFF:
         return "0", "none", "nothing is to be added: the coarse cloth is exact to round-off."
-    if after < style.ROUND_OFF:
+    if not lost and after < style.ROUND_OFF:
         return "−100 %", "better", f"up-sampling takes away all of {of_what}, to round-off."
-    reason = tables.without_bars(base, best)
-    if reason:
+    if reason := undecided(base, best):
         return UNKNOWN, "open", f"what up-sampling does to {of_what} is open, because {reason}; {size}."
-    bars = tables.bar_of(base) + tables.bar_of(best)
+    bars = bar_of(base) + bar_of(best)
     if abs(base["error_mean_m"] - best["error_mean_m"]) <= bars:
         return UNTOLD, "open", (
             f"up-sampling makes no difference to {of_what} that the error bars of both"
@@ -238,11 +250,11 @@ def of_upsampling(base, best, size):
 def change_between(one, other):
     """How the error changes from one row to another: −74 %, +58 %, or what the bars cannot tell."""
     before, after = one["error_mean_per_cell"], other["error_mean_per_cell"]
-    if max(before, after) < style.ROUND_OFF:
+    if not law_lost(other) and max(before, after) < style.ROUND_OFF:
         return UNTOLD
-    if tables.without_bars(one, other):
+    if undecided(one, other):
         return UNKNOWN
-    if abs(other["error_mean_m"] - one["error_mean_m"]) <= tables.bar_of(one) + tables.bar_of(other):
+    if abs(other["error_mean_m"] - one["error_mean_m"]) <= bar_of(one) + bar_of(other):
         return UNTOLD
     return change_of(1.0 - after / before if before >= style.ROUND_OFF else -math.inf)
 
@@ -260,7 +272,7 @@ def beside_the_bar(best):
     """How well the error that is left is known: what it may change by in the limit of fine meshes,
     method and reference together.
     """
-    left, bar = best["error_mean_m"], tables.bar_of(best)
+    left, bar = best["error_mean_m"], bar_of(best)
     if not bar > 0.0 or best["error_mean_per_cell"] < style.ROUND_OFF:
         return ""
     if left > bar:

@@ -7,6 +7,7 @@ import math
 from figures import style
 from figures.style import bar_beside, beside_bar, percent, three
 from page import tables
+from page.bars import bar_of
 from page.entries import ENTRIES, MICRO
 from read.schema import main_method
 from read.stiffness import best_run, centre_and_bars
@@ -110,6 +111,6 @@ def errors_of(results, subject, strain):
         row = here.get(main_method(here))
         if row and row["error_mean_per_cell"] >= style.ROUND_OFF:
             side = row["error_mean_m"] / row["error_mean_per_cell"]
-            bar = tables.bar_of(row) / side
+            bar = bar_of(row) / side
             found[load] = (1e3 * row["error_mean_per_cell"], 1e3 * bar)
     return found

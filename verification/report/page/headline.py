@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The first sentence of a page: in which sheets up-sampling is worth it, in which it is not, and
-what a finer coarse mesh would change; and the one line of the infinite cloth. All of it is made of
-the numbers of the run.
+"""The first sentence of a page: in which sheets up-sampling is worth it, in which it is not, where
+that is open, and what a finer coarse mesh would change; and the one line of the infinite cloth. All
+of it is made of the numbers of the run.
 """
 import math
 
 from figures import style
 from figures.style import percent, three
+from page.bars import law_lost
 from page.words import change_of, listed, share
 from read.schema import is_of_homespun, main_method
 
@@ -24,20 +25,36 @@ def headline(lines, strain, method):
     """
     sheets = [line for line in lines if not style.is_infinite(line["load"])] or lines
     of = {mark: [line for line in sheets if line["mark"] == mark] for mark in MARKS}
-    unknown = [line for line in of["open"] if line["change"] == "–"]
-    undecided = [line for line in of["open"] if line["change"] != "–"]
     parts = []
     if of["better"]:
         parts.append(f"pays in {named(of['better'])}")
     if of["worse"]:
         parts.append(f"does not pay in {named(of['worse'])}")
-    if undecided:
-        parts.append(f"makes no difference that can be told in {listed(loads_of(undecided))}")
     if of["none"]:
         parts.append(f"has nothing to add in {listed(loads_of(of['none']))}")
-    if unknown:
-        parts.append(f"cannot be judged in {listed(loads_of(unknown))}, where no base was run")
+    parts += open_parts(of["open"])
     return f"At {strain} strain up-sampling ({method}) {'; it '.join(parts)}."
+
+
+def open_parts(lines):
+    """What is said of the loads in which up-sampling is not known to gain or to lose: differences
+    within the bars, what nothing decides and why, and what has no base, apart.
+    """
+    without_base = [line for line in lines if line["change"] == "–"]
+    reasons = {}
+    for line in lines:
+        if line["why_open"]:
+            reasons.setdefault(line["why_open"], []).append(line)
+    within = [line for line in lines if line not in without_base and not line["why_open"]]
+    parts = []
+    if within:
+        parts.append(f"makes no difference that can be told in {listed(loads_of(within))}")
+    if reasons:
+        where = [f"{listed(loads_of(some))} ({why})" for why, some in reasons.items()]
+        parts.append(f"is open in {listed(where)}")
+    if without_base:
+        parts.append(f"cannot be judged in {listed(loads_of(without_base))}, where no base was run")
+    return parts
 
 
 def named(lines):
@@ -56,36 +73,51 @@ def infinite_line(lines):
     if not some:
         return None
     marks = {line["mark"] for line in some}
-    known = [line for line in some if line["left_per_cell"] >= style.ROUND_OFF]
-    left = (
-        f"at most {three(100.0 * max(line['left_per_cell'] for line in known))} % of a cell side is"
-        f" left ({max(known, key=lambda line: line['left_per_cell'])['load']})"
-        if known
-        else "nothing is left, to round-off"
-    )
-    others = [line for line in some if line["mark"] not in ("better", "none")]
-    words = f"Without edges {left}."
-    if others:
-        words += f" Up-sampling does not pay in {listed(loads_of(others))}."
-    gains = [line["gain"] for line in some if not math.isnan(line["gain"])]
+    worse, is_open = ([line for line in some if line["mark"] == mark] for mark in ("worse", "open"))
+    words = f"Without edges {most_left(some)}."
+    parts = [f"does not pay in {listed(loads_of(worse))}"] if worse else []
+    if parts := parts + open_parts(is_open):
+        words += f" Up-sampling {'; it '.join(parts)}."
+    gains = [line["gain"] for line in some if line not in is_open and not math.isnan(line["gain"])]
+    changes = list(dict.fromkeys(line["change"] for line in some))
+    ranges = [line["valid"] for line in some]
     return {
         "load": ", ".join(loads_of(some)),
         "title": "Infinite cloth",
-        "change": span_of(gains),
-        "mark": marks.pop() if len(marks) == 1 else "none" if not others else "open",
+        "change": span_of(gains) if gains else " / ".join(changes),
+        "mark": marks.pop() if len(marks) == 1 else "open" if worse or is_open else "none",
         "coarse": "",
         "total": "",
         "paper": "",
         "sentence": words,
         "short": words,
         "beside": "",
-        "valid": " / ".join(dict.fromkeys(line["valid"] for line in some)),
+        "valid": " / ".join(ranges if len(set(ranges)) > 1 else ranges[:1]),
     }
+
+
+def most_left(lines):
+    """How large the error that is left may be, its bar included, and under which load."""
+    known = [line for line in lines if line["left_per_cell"] >= style.ROUND_OFF]
+    if not known:
+        return "nothing is left, to round-off"
+    most = {
+        line["load"]: line["left_per_cell"] + max(line["bar_per_cell"], 0.0) for line in known
+        if not math.isnan(line["bar_per_cell"])
+    }
+    barless = [line for line in known if line["load"] not in most]
+    parts = [f"{three(100.0 * line['left_per_cell'])} % of a cell side, of an error bar that is not"
+             f" known, is left in {line['load']}" for line in barless]
+    if most:
+        load = max(most, key=most.get)
+        parts.insert(0, f"at most {three(100.0 * most[load])} % of a cell side is left ({load}),"
+                        " error bar included")
+    return ", and ".join(parts)
 
 
 def span_of(gains):
     """−100 %, or −97 to −100 %, of gains."""
-    ends = list(dict.fromkeys(change_of(end(gains)) for end in (min, max))) if gains else ["–"]
+    ends = list(dict.fromkeys(change_of(end(gains)) for end in (min, max)))
     return f"{ends[0].removesuffix(' %')} to {ends[1]}" if len(ends) > 1 else ends[0]
 
 
@@ -99,6 +131,8 @@ def finer_mesh_sentence(rows, ways, reference):
     found = []
     for row in rows:
         if row["method"] != PAPER or row["reference"] != reference or style.is_infinite(row["load"]):
+            continue
+        if law_lost(row):
             continue
         quads = math.isqrt(int(row["coarse_triangles"]) // 2)
         known = {
@@ -131,6 +165,7 @@ def own_methods_sentence(here):
 
     @param here rows of strain.csv of one cell, reference and strain, with an error
     """
+    here = [row for row in here if not law_lost(row)]
     sheets = [row for row in here if not style.is_infinite(row["load"])] or here
     parts = []
     for own in dict.fromkeys(r["method"] for r in sheets if not is_of_homespun(r["method"])):

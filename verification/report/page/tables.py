@@ -9,6 +9,7 @@ from figures import style
 from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
 from figures.style import number_with_bar, percent, seconds, three
+from page.bars import bar_of
 from page.entries import ENTRIES, bracket_words, entry_texts, used_stiffnesses
 from read import schema
 from read.cell_results import relative_width
@@ -102,23 +103,6 @@ def gain_rows(gains):
         for row in gains
         if row["load"] == load
     ]
-
-
-UNCONFIRMED = 3.0  # the factor of safety of an error bar where no convergence is seen
-
-
-def bar_of(row):
-    """The bar of an error [m]; nan where none was measured."""
-    return row.get("error_bar_m", math.nan)
-
-
-def without_bars(one, other):
-    """Why the error bars of two errors decide nothing, a clause, as the claims have it; else empty."""
-    if math.isnan(bar_of(one) + bar_of(other)):
-        return "an error bar is not known"
-    if max(row.get("error_bar_safety", 0.0) for row in (one, other)) >= UNCONFIRMED:
-        return "errors of P1, P2 and refined P2 do not come together"
-    return ""
 
 
 def error_entry(row):
