@@ -257,6 +257,8 @@ class Budget(unittest.TestCase):
 
         self.assertEqual(text("=", 0.0312, 0.0301, 0.0324), "3.1 % (3 to 3.2)")
         self.assertEqual(text("=", 0.0312, 0.0312, 0.0312), "3.1 %")
+        self.assertEqual(text("=", 0.013, high=0.099), "1.3 % (not resolved; up to 9.9 %)")
+        self.assertEqual(text("=", 0.013, high=0.013), "1.3 % (not resolved)")
         self.assertEqual(text(">", 0.2, 0.2, 0.2), "> 20 %")
         self.assertEqual(text(">", 0.2, 0.05, 0.2), "> 20 % (from 5 %)")
         self.assertEqual(text(">", 0.2), "> 20 % (not resolved)")

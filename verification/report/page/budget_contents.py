@@ -277,7 +277,8 @@ def folds_text(rows):
 
 
 def validity_text(row):
-    """`3.2 % (3.1 to 3.4)`, `> 20 %`, or a dash; with what the error bar leaves open in brackets.
+    """`3.2 % (3.1 to 3.4)`, `1.3 % (not resolved; up to 9.9 %)`, `> 20 %`, or a dash; with what the
+    error bar leaves open in brackets.
     """
     low, high = row["largest_strain_lower"], row["largest_strain_upper"]
     if row["relation"] == "-":
@@ -286,6 +287,10 @@ def validity_text(row):
         strain = row["largest_strain"]
         certain = "" if low >= strain else f" (from {two(low)} %)" if low > 0 else " (not resolved)"
         return f"> {two(strain)} %{certain}"
+    if math.isnan(low):
+        is_wider = not math.isnan(high) and two(high) != two(row["largest_strain"])
+        up_to = f"; up to {two(high)} %" if is_wider else ""
+        return f"{two(row['largest_strain'])} % (not resolved{up_to})"
     bar = ""
     if not (math.isnan(low) or math.isnan(high)) and two(low) != two(high):
         bar = f" ({two(low)} to {two(high)})"
