@@ -55,6 +55,7 @@ class JudgedTest(PageTest):
             caption = re.search(rf'id="stripes-{figure}".*?<figcaption>(.*?)</figcaption>', page,
                                 re.S)[1]
             self.assertIn("<code>mine</code> (pink) and <code>yours</code> (yellow)", caption)
+            self.assertIn("Grey: up to the error bar of the smallest error", caption)  # as BAR_LABEL
         in_page = {tuple(curve["dash"]) for panels in page_checks.data_of(page, "plot-data")
                    for panel in panels for curve in panel["curves"]
                    if curve.get("label") == "mine against biot"}

@@ -44,9 +44,7 @@ def number(value):
 
 
 def band(axes, x, y, bottom, label):
-    """A grey area from `bottom` up to y(x), that is read back as a curve: the uncertainty of a
-    reference.
-    """
+    """A grey area from `bottom` up to y(x), that is read back as a curve: an error bar."""
     area = axes.fill_between(
         x, y, bottom, color=BAND_COLOUR, alpha=BAND_ALPHA, lw=0, zorder=0, label=label
     )

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The paper's Figure 3: error per vertex against strain, one panel per load.
 
-Colour tells the method, line style and marker tell the reference law, the grey area the reference's
-own uncertainty (an error inside it is not resolved), the vertical line 1 % strain.
+Colour tells the method, line style and marker tell the reference law, the grey area the error bar
+of the smallest error (the largest of the laws shown), the vertical line 1 % strain.
 """
 import math
 

@@ -201,8 +201,8 @@ def draw_strain(contents, rows_and_bases, methods, reference, side, gallery):
     contents["error"] = gallery.add(
         figure,
         f"{name}-error-strain",
-        f"{name}: mean error per vertex, in cell sides, against strain. Grey: an error in this area"
-        " is not larger than the reference's own uncertainty (the largest of the laws shown)."
+        f"{name}: mean error per vertex, in cell sides, against strain. Grey: up to the error bar"
+        " of the smallest error (the largest of the laws shown)."
         + judged_sentence(own) + (floor if at_floor else ""),
     )
     figure, at_floor = error_figure(
