@@ -4,6 +4,8 @@ import math
 import os
 import unittest
 
+from matplotlib import pyplot
+
 import report_path  # noqa: F401
 from figures import converge
 from figures.converge import Line
@@ -121,6 +123,18 @@ SERIES = [  # cell, study, case, quantity, p, h_unit, order, lowest, highest, ju
         3.1,
         "FAIL",
     ),
+    (
+        "stripes",
+        "time",
+        "damped fall",
+        "mean error of the positions [way that the sheet falls]",
+        1,
+        "s",
+        1.0,
+        0.9,
+        1.1,
+        "PASS",
+    ),
 ]
 
 
@@ -193,7 +207,7 @@ class ConvergencePage(PageTest):
             self.assertTrue(
                 os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.svg"))
             )
-        self.assertIn("7 of 9 observed orders lie within their limits, 1 outside, 1 is open.", page)
+        self.assertIn("8 of 10 observed orders lie within their limits, 1 outside, 1 is open", page)
         self.assertIn("3.00 ± 0.10", page)  # a two-sided limit
         self.assertIn("0.850 to 2.15", page)  # a band
         self.assertIn("homespun: convergence", page)
@@ -220,6 +234,20 @@ class ConvergencePage(PageTest):
         guide = [line for line in axes.lines if line.get_linestyle() == ":"][0]
         (x0, x1), (y0, y1) = guide.get_xdata(), guide.get_ydata()
         self.assertAlmostEqual(math.log(y1 / y0) / math.log(x1 / x0), -2.0)
+
+    def test_series_of_the_time_step_differ_in_their_look_and_stand_under_their_unit(self):
+        convergence = converge_results.read_convergence(
+            self.folder, "x", os.path.join(self.folder, "converge.csv"), [], []
+        )
+        figure = converge.time_figure(convergence)
+        self.addCleanup(pyplot.close, figure)
+        drawn = [[line for line in axes.lines if line.get_label() != converge.THEORY]
+                 for axes in figure.axes]
+        looks = {(line.get_color(), line.get_marker(), line.get_linestyle())
+                 for some in drawn for line in some}
+        self.assertEqual(([len(some) for some in drawn], len(looks)), ([2, 1], 3))
+        self.assertEqual([axes.get_ylabel() for axes in figure.axes],
+                         ["mean error [sheet sides]", "mean error [way that the sheet falls]"])
 
     def test_a_limit_without_an_error_bar_is_not_printed(self):
         self.edit_table(

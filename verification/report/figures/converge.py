@@ -12,7 +12,7 @@ from figures import style
 GUIDE = "#6B6B6B"
 THEORY = "order of the theory, or its bounds"
 ORDER_MARKERS = {1: "o", 2: "^"}
-TIME_COLOURS = (style.BLUE, style.VERMILLION)
+TIME_LOOKS = ((style.BLUE, "o", "-"), (style.VERMILLION, "s", "--"), (style.GREEN, "^", "-."))
 METHOD_LINES = {"localized": "-", "affine": "--", "full": "-."}
 MESH_LINES = {"adaptive": "-", "uniform": "--"}
 
@@ -271,15 +271,16 @@ def strain_figure(convergence):
 
 
 def time_figure(convergence):
+    """A panel per cell and unit of the error; a case has one look in all of them."""
+    cases = dict.fromkeys(s.case for s in convergence.of("time"))
+    looks = {case: TIME_LOOKS[i % len(TIME_LOOKS)] for i, case in enumerate(cases)}
     panels = []
     for cell in convergence.cells("time"):
         some = convergence.of("time", cell)
-        lines = [
-            Line(s, s.case, TIME_COLOURS[i % 2], ("o", "s")[i % 2], ("-", "--")[i % 2])
-            for i, s in enumerate(some)
-        ]
-        panels.append((cell, "time step [s]", "mean error [sheet sides]", lines))
-    return order_figure(panels)
+        for unit in dict.fromkeys(s.unit for s in some):
+            lines = [Line(s, s.case, *looks[s.case]) for s in some if s.unit == unit]
+            panels.append((cell, "time step [s]", f"mean error [{unit}]", lines))
+    return order_figure(panels, min(2, len(panels)))
 
 
 FIGURES = {
