@@ -298,6 +298,7 @@ class BudgetReport(PageTest):
                 " shear-frame"
             ),
             "1 rest: higher order in the cell",
+            "add up to 100 % less that of <i>unexplained</i>",
             "2 geometric nonlinearity, modes",
             "On the front of error against run time: affine-5",
             "3.1 % (3 to 3.2)",
