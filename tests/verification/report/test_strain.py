@@ -9,9 +9,12 @@ import unittest
 import page_checks
 import report_path  # noqa: F401
 from figures import plot_data, style
-from figures.strain import error_figure
+from figures.run_time import step_figure
+from figures.strain import BAR_LABEL, error_figure
 from made_up_study import SIDE, strain_rows, write_results
+from matplotlib import pyplot
 from page_case import PageTest
+from read import schema
 
 FIGURES = ("answer", "error-strain", "error-strain-fluctuation", "variants")
 
@@ -55,7 +58,7 @@ class JudgedTest(PageTest):
             caption = re.search(rf'id="stripes-{figure}".*?<figcaption>(.*?)</figcaption>', page,
                                 re.S)[1]
             self.assertIn("<code>mine</code> (pink) and <code>yours</code> (yellow)", caption)
-            self.assertIn("Grey: up to the error bar of the smallest error", caption)  # as BAR_LABEL
+            self.assertIn(f"Grey: up to the {BAR_LABEL}", caption)
         in_page = {tuple(curve["dash"]) for panels in page_checks.data_of(page, "plot-data")
                    for panel in panels for curve in panel["curves"]
                    if curve.get("label") == "mine against biot"}
@@ -75,6 +78,24 @@ class JudgedTest(PageTest):
         self.assertNotIn(dashes["mine"][0], dashes["affine"])
         self.assertEqual(len({line.get_marker() for line in figure.axes[0].lines
                               if line.get_label().startswith("mine")}), 2)
+
+
+class LegendTest(unittest.TestCase):
+    def test_the_base_is_named_as_that_of_no_certain_method(self):
+        rows = [{**row, "method": method} for row in strain_rows() if row["method"] == "localized"
+                for method in ("localized+p2", "base")]
+        figure, _ = error_figure(rows, ["localized+p2", "base"], ["biot"], SIDE)
+        self.addCleanup(pyplot.close, figure)
+        texts = [one.get_text() for one in figure.legends[0].get_texts()]
+        self.assertIn("base: coarse cloth of the page's method, not up-sampled", texts)
+
+    def test_each_law_of_a_load_step_has_a_shade_of_its_own(self):
+        steps = [{"load": "strip-1", "reference": law, "seconds_coarse_solve": 1e-3,
+                  "seconds_upsample": 1e-3, "seconds_fine_step": 1.0} for law in schema.laws()]
+        figure = step_figure(steps)
+        self.addCleanup(pyplot.close, figure)
+        colours = {bar.get_facecolor() for bar in figure.axes[0].patches}
+        self.assertEqual(len(colours), 2 + len(schema.laws()))
 
 
 class AxesTest(unittest.TestCase):

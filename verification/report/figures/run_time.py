@@ -119,13 +119,13 @@ def step_figure(steps):
         return None
     loads = style.ordered_loads(step["load"] for step in steps)
     references = style.ordered_references(step["reference"] for step in steps)
-    shades = ["#F2B48C", style.VERMILLION, "#8A3A00"]
+    shades = style.ramp("#F2B48C", style.VERMILLION, "#8A3A00", number=len(references))
     bars = [
         ("seconds_coarse_solve", None, "coarse solve", style.BLUE),
         ("seconds_upsample", None, "up-sampling", style.SKY),
     ]
     bars += [
-        ("seconds_fine_step", reference, f"full resolution, {reference}", shades[i % len(shades)])
+        ("seconds_fine_step", reference, f"full resolution, {reference}", shades[i])
         for i, reference in enumerate(references)
     ]
     height = 0.8 / len(bars)

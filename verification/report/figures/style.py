@@ -43,7 +43,7 @@ METHOD_COLOURS = {
     "full": BLACK,
 }
 METHOD_LABELS = {"localized": "localized (the paper's method)",
-                 "base": "base: the coarse cloth of full, not up-sampled"}
+                 "base": "base: coarse cloth of the page's method, not up-sampled"}
 SPARE_COLOURS = ("#332288", "#44AA99", "#8A3A00", "#117733")
 OWN_COLOURS = (PURPLE, ORANGE)  # of methods that were judged
 COLOUR_NAMES = {VERMILLION: "orange", BLUE: "blue", "#999933": "olive", "#882255": "wine",
@@ -190,13 +190,19 @@ def ordered_references(references):
     return [r for r in known if r in references] + sorted(references.difference(known))
 
 
+def ramp(*between, number):
+    """So many colours, from the first of the given ones to the last."""
+    through = colors.LinearSegmentedColormap.from_list("ramp", between)
+    return [colors.to_hex(through(k / max(1, number - 1))) for k in range(number)]
+
+
 def phase_colours(stiffnesses):
     """One colour per phase, from light (softest) to dark (stiffest)."""
-    ramp = colors.LinearSegmentedColormap.from_list("phases", ["#F6ECD6", PURPLE, "#43215F"])
+    shades = ramp("#F6ECD6", PURPLE, "#43215F", number=len(stiffnesses))
     order = sorted(range(len(stiffnesses)), key=lambda i: stiffnesses[i])
     result = [None] * len(order)
-    for rank, i in enumerate(order):
-        result[i] = colors.to_hex(ramp(rank / max(1, len(order) - 1)))
+    for shade, i in zip(shades, order):
+        result[i] = shade
     return result
 
 
