@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import report_path  # noqa: F401
 from matplotlib import pyplot
 from figures.comparison import comparison_figure, drawn
+from figures.plot_data import plain, rows_of
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
@@ -18,6 +19,20 @@ from page.entries import entry_texts
 from page_case import PageTest
 from read import results, runs, versions
 from read.results import read_results
+
+
+def rows_of_strip(reference, *methods):
+    return [
+        {
+            "load": "strip-1",
+            "reference": reference,
+            "method": method,
+            "strain": strain,
+            "error_mean_per_cell": (1.0 + k) * strain,
+        }
+        for k, method in enumerate(methods)
+        for strain in (0.01, 0.1)
+    ]
 
 
 class ComparisonTest(PageTest):
@@ -138,36 +153,32 @@ class ComparisonTest(PageTest):
         self.assertEqual(rows["full resolution over the other two"], ["1500"])
 
     def test_the_method_of_each_page_is_drawn_and_the_papers_beside_it(self):
-        def rows(reference, *methods):
-            return [
-                {
-                    "load": "strip-1",
-                    "reference": reference,
-                    "method": method,
-                    "strain": strain,
-                    "error_mean_per_cell": (1.0 + k) * strain,
-                }
-                for k, method in enumerate(methods)
-                for strain in (0.01, 0.1)
-            ]
-
-        every = rows("biot", "full", "localized", "affine", "localized+edges")
+        every = rows_of_strip("biot", "full", "localized", "affine", "localized+edges")
         self.assertEqual(
             {kind: method for kind, (method, _) in drawn(every, "biot").items()},
             {"spoken of": "full", "localized": "localized", "affine": "affine"},
         )
         self.assertEqual(drawn(every, "green"), {})
-        paper = drawn(rows("biot", "localized", "affine"), "biot")
+        paper = drawn(rows_of_strip("biot", "localized", "affine"), "biot")
         self.assertEqual(list(paper), ["spoken of", "affine"])
         self.assertEqual(paper["spoken of"][0], "localized")
         figure = comparison_figure(
-            {"one": every, "two": rows("biot", "localized")}, {"one": "biot", "two": "biot"}
+            {"one": every, "two": rows_of_strip("biot", "localized")},
+            {"one": "biot", "two": "biot"},
         )
         self.addCleanup(pyplot.close, figure)
         self.assertEqual(
             [line.get_label() for line in figure.axes[0].get_lines()][:4],
             ["one, full", "one, affine", "one, localized", "two, localized"],
         )
+
+    def test_a_name_that_begins_with_an_underscore_has_its_curves(self):
+        some = rows_of_strip("biot", "localized", "affine")
+        names = ("one", "_try")
+        figure = comparison_figure(dict.fromkeys(names, some), dict.fromkeys(names, "biot"))
+        self.addCleanup(pyplot.close, figure)
+        self.assertIn("_try", [plain(text.get_text()) for text in figure.legends[0].get_texts()])
+        self.assertIn("_try, localized", {row[1] for row in rows_of(figure)})
 
     def test_the_range_is_that_of_the_method_whose_errors_stand_below(self):
         def row(method, strain):

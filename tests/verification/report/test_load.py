@@ -2,6 +2,7 @@
 """Tests of the page of `homespun periodic load`, on made-up curves."""
 import json
 import os
+import re
 import unittest
 
 import report_path  # noqa: F401
@@ -85,6 +86,15 @@ class LoadPage(PageTest):
         self.assertIn("110 ± 1.10", page)
         self.assertIn("measured: lab", page)
         self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", "load-stripes.csv")))
+
+    def test_a_name_with_a_tag_in_it_is_shown_as_it_is(self):
+        for file in ("load.csv", "study.json"):
+            self.edit(file, lambda it: it.replace("stripes,", "warp<b>2,").replace("lab,", "<i>,"))
+        self.assertEqual(self.run_report(), (0, ""))
+        figure = re.search(r"<figure.*?</figure>", self.page(), re.S)[0]
+        self.assertIn("An infinite cloth of <code>warp&lt;b&gt;2</code>", figure)
+        self.assertIn("measured (&lt;i&gt;)", figure)
+        self.assertIn('alt="An infinite cloth of warp&lt;b&gt;2.', figure)
 
     def test_what_lies_within_its_bar_or_round_off_has_no_panel(self):
         paths = {}

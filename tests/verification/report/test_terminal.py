@@ -27,10 +27,15 @@ class Terminal(unittest.TestCase):
 
     def test_tags_and_entities_of_the_page_are_gone_and_lines_are_short(self):
         sentence = "C<sup>H</sup> &lt; 1 " + "and so on " * 30
-        text = answer_text({**NOTHING, "stability": [
+        text = answer_text({**NOTHING, "drapes": [
             {"name": "a", "cells": [{"name": "a", "sentences": [sentence]}]}]})
         self.assertIn("  CH < 1 and so on", text)
         self.assertLessEqual(max(map(len, text.split("\n"))), COLUMNS)
+
+    def test_a_name_of_text_keeps_its_brackets(self):
+        cell = {"name": "warp<b>2", "sentences": ["a &lt; <i>b</i>"]}
+        text = answer_text({**NOTHING, "stability": [{"name": "warp<b>2", "cells": [cell]}]})
+        self.assertEqual(text, "warp<b>2:\n  a &lt; <i>b</i>")
 
     def test_a_count_stands_beside_its_study(self):
         text = answer_text({**NOTHING, "convergence": [{"name": "c", "sentence": "All hold."}]})

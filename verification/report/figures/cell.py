@@ -7,6 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
+from figures.plot_data import label_of
 
 CM = 100.0  # lengths are drawn in centimetres
 LOADS = ("11", "22", "12")
@@ -40,7 +41,10 @@ def phase_legend(cell, material=None):
     entries = []
     for number, phase, colour in zip(numbers, phases, colours):
         entries.append((phase_stiffness(phase), number, colour, str(phase.get("name", number))))
-    return [entry[1:] for entry in sorted(entries, key=lambda entry: entry[0])]
+    return [
+        (number, colour, label_of(name))
+        for _, number, colour, name in sorted(entries, key=lambda entry: entry[0])
+    ]
 
 
 def cell_axes(axes, points):

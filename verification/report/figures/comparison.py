@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from figures import style
 from figures.cell import draw_phases, phase_legend
-from figures.plot_data import ROUND_OFF_NOTE
+from figures.plot_data import ROUND_OFF_NOTE, label_of
 from figures.stiffness import draw_moduli
 from figures.strain import MARKED_STRAIN, floored, limits
 from read.schema import main_method
@@ -91,7 +91,7 @@ def comparison_figure(rows, references):
                 strain, value, low = floored(some, KEY, 1.0)
                 if not len(strain):
                     continue
-                label = f"{name}, {method}"
+                label = label_of(f"{name}, {method}")
                 axes.plot(
                     100 * strain,
                     numpy.where(low, lower, value),
@@ -131,7 +131,7 @@ def comparison_figure(rows, references):
             color=COLOURS[k % len(COLOURS)],
             marker=MARKERS[(k // len(COLOURS) + k) % len(MARKERS)],
             markerfacecolor="white",
-            label=name,
+            label=label_of(name),
         )
         for k, name in enumerate(names)
     ]
@@ -189,7 +189,7 @@ def moduli_figure(stiffnesses, bendings):
     for axes, (title, matrices) in zip(grid[0], panels):
         draw_moduli(axes, {name: (C, *looks[name]) for name, C in matrices.items()}, title)
     handles = [
-        Line2D([], [], color=colour, ls=line, lw=1.8, label=name)
+        Line2D([], [], color=colour, ls=line, lw=1.8, label=label_of(name))
         for name, (colour, line) in looks.items()
     ]
     figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)

@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
-from figures.plot_data import band, name_unseen
+from figures.plot_data import band, label_of, name_unseen
 from figures.sheet import unit_of
 from read import schema
 from read.drape_results import reference_member
@@ -118,7 +118,7 @@ def error_time_curves(rows):
                         value,
                         color=style.method_colour(method, methods),
                         marker="o" if len(time) < 12 else "",
-                        label=method,
+                        label=label_of(method),
                     )
             axes.set(yscale="log", ylim=(lower, upper))
             axes.yaxis.set_minor_locator(ticker.NullLocator())
@@ -130,7 +130,8 @@ def error_time_curves(rows):
             )
         line[0].set_ylabel(f"mean error [{unit}]")
     handles = [
-        Line2D([], [], color=style.method_colour(m, methods), lw=2.0, label=m) for m in methods
+        Line2D([], [], color=style.method_colour(m, methods), lw=2.0, label=label_of(m))
+        for m in methods
     ]
     if bars:
         handles.append(Patch(color="#BDBDBD", alpha=0.55, label="uncertainty of the reference"))

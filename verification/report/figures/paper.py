@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 
 from figures import style
 from figures.cell import draw_phases, phase_legend
+from figures.plot_data import label_of
 from figures.stiffness import draw_moduli
 from figures.strain import draw_panel, limits
 
@@ -92,7 +93,8 @@ def strain_figure(rows, methods, reference, side, width):
             line, marker = style.method_style(method, methods)
             handles.append(
                 Line2D([], [], color=style.method_colour(method, methods), ls=line, marker=marker,
-                       markerfacecolor="white", label=style.METHOD_LABELS.get(method, method))
+                       markerfacecolor="white",
+                       label=style.METHOD_LABELS.get(method, label_of(method)))
             )
         if any(row.get("error_bar_m", 0.0) > 0 for row in rows):
             handles.append(Patch(color="#BDBDBD", alpha=0.55, label="bar of the smallest error"))
@@ -134,7 +136,7 @@ def stiffness_figure(matrices, width):
         size = min(width, 9.0 * CM)
         looks = [style.line_of(k) for k in range(len(matrices))]
         handles = [
-            Line2D([], [], color=colour, ls=line, label=name)
+            Line2D([], [], color=colour, ls=line, label=label_of(name))
             for name, (colour, line) in zip(matrices, looks)
         ]
         figure, (axes,) = with_legend(width, 1, 1, size, handles, polar=True)

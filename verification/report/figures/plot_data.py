@@ -18,6 +18,7 @@ from matplotlib.text import Annotation
 from matplotlib.ticker import FixedLocator
 
 ROUND_OFF_NOTE = "zero to round-off"
+NO_WIDTH = "\u200b"
 BAND_COLOUR, BAND_ALPHA = "#BDBDBD", 0.55
 DASHES = {
     "-": [],
@@ -31,9 +32,16 @@ DASHES = {
 HEADER = ("panel", "series", "note", "x_quantity", "x", "y_quantity", "y")
 
 
+def label_of(name):
+    """A name as a label of data: one that begins with an underscore would be left out of legends,
+    hence a space without width stands before it, which plain() takes away.
+    """
+    return NO_WIDTH + name if name.startswith("_") else name
+
+
 def plain(text):
     """A label without the marks of mathematical type: $C^H$ gives Cᴴ."""
-    text = text.replace("C^H", "Cᴴ").replace(r"\theta", "θ")
+    text = text.replace("C^H", "Cᴴ").replace(r"\theta", "θ").replace(NO_WIDTH, "")
     return re.sub(r"[${}]", "", text).replace("\n", " ")
 
 

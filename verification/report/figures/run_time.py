@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
-from figures.plot_data import ROUND_OFF_NOTE, name_unseen
+from figures.plot_data import ROUND_OFF_NOTE, label_of, name_unseen
 from figures.strain import series
 from read.schema import main_method
 
@@ -216,7 +216,7 @@ def error_time_figure(rows, methods, reference, strains, side):
                 markerfacecolor="none" if low else style.method_colour(row["method"], methods),
                 markeredgecolor=style.method_colour(row["method"], methods) if low else "white",
                 mew=1.2 if low else 0.6,
-                label=row["method"],
+                label=label_of(row["method"]),
                 gid=f"{ROUND_OFF_NOTE}, {row['load']}" if low else row["load"],
             )
             if (
@@ -250,7 +250,7 @@ def error_time_figure(rows, methods, reference, strains, side):
             ls="",
             marker="o",
             color=style.method_colour(m, methods),
-            label=style.METHOD_LABELS.get(m, m),
+            label=style.METHOD_LABELS.get(m, label_of(m)),
         )
         for m in methods
         if any(row["method"] == m for row in shown)

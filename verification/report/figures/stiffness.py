@@ -6,7 +6,7 @@ import numpy
 from matplotlib import pyplot
 
 from figures import style
-from figures.plot_data import name_unseen
+from figures.plot_data import label_of, name_unseen
 from read.stiffness import homogenized
 
 
@@ -66,7 +66,7 @@ def draw_moduli(axes, curves, quantity=MODULUS):
     angles = numpy.linspace(0.0, 2.0 * numpy.pi, 721)
     for name, (matrix, colour, line) in curves.items():
         modulus = directional_modulus(matrix, angles)
-        axes.plot(angles, modulus, ls=line, color=colour, label=name)
+        axes.plot(angles, modulus, ls=line, color=colour, label=label_of(name))
     polar_frame(axes, quantity)
 
 

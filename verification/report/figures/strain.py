@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
-from figures.plot_data import DASHES, ROUND_OFF_NOTE, band
+from figures.plot_data import DASHES, ROUND_OFF_NOTE, band, label_of
 from read import schema
 
 MARKED_STRAIN = 0.01  # real textiles hardly stretch more under their own weight
@@ -125,7 +125,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                 markevery=list(numpy.flatnonzero(~low)),
                 markerfacecolor="white",
                 markeredgewidth=1,
-                label=f"{method} against {reference}",
+                label=label_of(f"{method} against {reference}"),
             )
             curve.dashes = DASHES[line] if line in DASHES else list(line[1])
             if low.any():
@@ -138,7 +138,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                     markerfacecolor="none",
                     clip_on=False,
                     zorder=5,
-                    label=f"{method} against {reference}",
+                    label=label_of(f"{method} against {reference}"),
                     gid=ROUND_OFF_NOTE,
                 )
     if style.is_infinite(load) and key == "error_mean_per_cell":
@@ -221,7 +221,7 @@ def legend(figure, methods, references, uncertainty, at_floor):
                 marker=marker,
                 markerfacecolor="white",
                 lw=1.4 if one_law else 2.2,
-                label=style.METHOD_LABELS.get(m, m),
+                label=style.METHOD_LABELS.get(m, label_of(m)),
             )
         )
     for reference in [] if one_law else references:

@@ -11,10 +11,11 @@ from figures.load import bar_key, known, load_figure
 from figures.style import three
 from read.load_results import COMPONENTS
 
-CAPTION = (
-    "An infinite cloth of `{cell}`. Prescribed: {control}. Full lines: the cell with its phases"
-    " (shaded: how far its mesh may be from the limit of fine ones); dashed: C<sup>H</sup> in place"
-    " of the cell, as a coarse cloth has it; dotted: linear theory, where both are the same.{measured}"
+CAPTION = Markup(
+    "An infinite cloth of <code>{cell}</code>. Prescribed: {control}. Full lines: the cell with its"
+    " phases (shaded: how far its mesh may be from the limit of fine ones); dashed: C<sup>H</sup>"
+    " in place of the cell, as a coarse cloth has it; dotted: linear theory, where both are the"
+    " same.{measured}"
 )
 
 
@@ -129,11 +130,10 @@ def load_contents(load, gallery):
             continue
         measured = f" Signs: measured ({', '.join(load.measured)})." if load.measured else ""
         caption = CAPTION.format(cell=cell, control=load.control, measured=measured)
-        caption = caption.replace(f"`{cell}`", f"<code>{cell}</code>")
         cells.append(
             {
                 "name": cell,
-                "picture": gallery.add(load_figure(load, cell), f"load-{cell}", Markup(caption)),
+                "picture": gallery.add(load_figure(load, cell), f"load-{cell}", caption),
                 "sentences": end_sentences(paths)
                 + [one for one in [pressed_sentence(paths)] if one]
                 + coarse_sentence(paths),

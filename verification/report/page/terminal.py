@@ -2,7 +2,7 @@
 """The answer of the page as plain text: what a terminal says at the end of a run."""
 import textwrap
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 COLUMNS = 96
 
@@ -42,18 +42,21 @@ def answer_text(contents):
 def blocks_of_runs(contents, kinds):
     """(subject, sentences) of runs that are no study of strain: scenes, bent sheets, orders."""
     blocks = []
-    for run in (run for kind in kinds for run in contents[kind]):
+    for kind, run in ((kind, run) for kind in kinds for run in contents[kind]):
         if run.get("sentence"):
             blocks.append((run["name"], [run["sentence"]]))
         blocks += [
             (f"{run['name']}, {cell['name']}" if run["name"] != cell["name"] else cell["name"],
-             cell["sentences"])
+             # Sentences of scenes are HTML.
+             [Markup(one) if kind == "drapes" else one for one in cell["sentences"]])
             for cell in run.get("cells") or []
             if cell["sentences"]
         ]
     return blocks
 
 
-def plain(html):
-    """A sentence without tags and entities."""
-    return Markup(html).striptags()
+def plain(sentence):
+    """A sentence without the tags and entities of HTML, where it is that; text stays as it is, also
+    a name with `<` in it.
+    """
+    return escape(sentence).striptags()
