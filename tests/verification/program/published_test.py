@@ -50,7 +50,7 @@ class ReadmeTest(unittest.TestCase):
         front, tables = MARKED[0].read_text(encoding="utf-8"), read_tables(PUBLISHED)
         for text, again in (
                 ((ROOT / "docs" / "results.md").read_text(encoding="utf-8"),
-                 results_page.page(tables)),
+                 results_page.page(tables, results_page.remarks_in(PUBLISHED))),
                 (front, results_page.with_gains(front, tables["errors.csv"]))):
             self.assertEqual(text, again, "`cmake --build --preset release --target docs` writes"
                                           " both again")
@@ -61,6 +61,16 @@ class ReadmeTest(unittest.TestCase):
         for name, rows in read_tables(PUBLISHED).items():
             self.assertTrue(rows, name)
             self.assertTrue(all(row["run"] and row["revision"] for row in rows), name)
+
+    def test_a_revision_that_has_a_remark_stands_beside_it_and_in_a_table(self):
+        remarks = results_page.remarks_in(PUBLISHED)
+        page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+        for revision, remark in remarks.items():
+            cells = {row["cell"] for row in read_tables(PUBLISHED)["errors.csv"]
+                     if row["revision"] == revision}
+            self.assertTrue(cells, f"revisions.json has {revision}, and no row of errors.csv")
+            for cell in cells:
+                self.assertRegex(page, rf"(?m)^\| `{cell}` \| \w+ \| {revision}, {remark} \|$")
 
     def test_no_tested_frame_of_a_peer_is_a_sum_of_frames_that_it_was_trained_on(self):
         rows = read_tables(PUBLISHED)["peers.csv"]
