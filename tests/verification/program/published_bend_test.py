@@ -1,23 +1,30 @@
 # SPDX-License-Identifier: MIT
-"""The published table of sheets that bend, and its section of docs/results.md."""
+"""The published table of sheets that bend, and its section of docs/results.md; and what texts say
+of all tables in words: how many cases, which, of which revision.
+"""
 import math
 import os
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(ROOT / "verification" / "published"),
+PUBLISHED = ROOT / "verification" / "published"
+sys.path[:0] = [str(PUBLISHED),
                 str(ROOT / "tests" / "verification" / "report")]
 
 # pylint: disable=wrong-import-position
 import report_path  # noqa: E402, F401
 import bent_section  # noqa: E402
 import of_bend  # noqa: E402
+import peers_section  # noqa: E402
 import published  # noqa: E402
+import results_page  # noqa: E402
 from made_up_run import verdict, write_run, write_table, write_verdicts  # noqa: E402
 from read import schema  # noqa: E402
+from readme_numbers import read_tables  # noqa: E402
 
 SIDE = 0.02
 ERRORS = {"affine": 0.2, "localized": 0.25, "affine+edges": 0.1, "full": 0.05}
@@ -70,6 +77,51 @@ class PublishedBendTest(unittest.TestCase):
         self.assertIn("Not run yet: `net`.\n", text)
         self.assertIn("Positions, 1 rows: `full` is nearer than its base in 1, farther in 0", text)
         self.assertIn("is farther than D^H alone in 1: `dots` twist.", text)
+
+
+class TextsTest(unittest.TestCase):
+    """What texts say of the tables in words."""
+
+    def test_a_revision_that_has_a_remark_stands_beside_it_and_in_a_table(self):
+        remarks = results_page.remarks_in(PUBLISHED)
+        page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+        for revision, remark in remarks.items():
+            cells = {row["cell"] for row in read_tables(PUBLISHED)["errors.csv"]
+                     if row["revision"] == revision}
+            self.assertTrue(cells, f"revisions.json has {revision}, and no row of errors.csv")
+            for cell in cells:
+                self.assertRegex(page, rf"(?m)^\| `{cell}` \| \w+ \| {revision}, {remark} \|$")
+
+    def test_the_front_page_counts_operators_in_every_case_that_is_clamped_as_in_training(self):
+        nearer = {True: 0, False: 0}  # by more than both bars, or not
+        for _, tested, _, its in peers_section.cases(read_tables(PUBLISHED)["peers.csv"]):
+            own = its.get(("full", ""))
+            some = [row for (method, on), row in its.items() if method.startswith("learned")
+                    and (on == "both pairs" or tested == "strip-1")]
+            for by_bars in nearer if own else ():
+                nearer[by_bars] += any(peers_section.is_nearer(row, own, by_bars) for row in some)
+        words = dict(enumerate("no one two three four five six seven eight nine ten".split()))
+        text = re.sub(r"<!--.*?-->", "", (ROOT / "README.md").read_text(encoding="utf-8"))
+        self.assertIn(f"beat `full` in {words[nearer[False]]} of 24 cases,"
+                      f" {words[nearer[True]]} beyond both bars", text)
+
+    def test_every_level_and_scene_that_no_run_got_right_is_named(self):
+        tables = read_tables(PUBLISHED)
+        text = (ROOT / "guides" / "findings.md").read_text(encoding="utf-8")
+        _, _, reached = text.partition("At the size of the results")
+        of_loads, _, of_frames = reached.partition("under all three loads")
+        named = {(cell, load) for part, loads in (
+                     (of_loads, ("strip-1", "strip-2", "shear-frame")),
+                     (of_frames.partition("in shear frames")[0], ("shear-frame",)))
+                 for cell in re.findall("`([a-z0-9-]+)`", part) for load in loads}
+        self.assertEqual(named, {(row["cell"], row["load"]) for row in tables["errors.csv"]
+                                 if not row["full"]})
+        limits = (ROOT / "guides" / "limits.md").read_text(encoding="utf-8")
+        for row in tables["limits.csv"]:
+            scene, _, cell = row["of"].partition(", ")
+            if (row["axis"], scene, row["reached"]) == ("time step", "scene pull", ""):
+                self.assertIn(f"`{cell}`", limits)
+                self.assertIn(f"its error is {float(row['error']):.3g}", limits)
 
 
 if __name__ == "__main__":

@@ -62,16 +62,6 @@ class ReadmeTest(unittest.TestCase):
             self.assertTrue(rows, name)
             self.assertTrue(all(row["run"] and row["revision"] for row in rows), name)
 
-    def test_a_revision_that_has_a_remark_stands_beside_it_and_in_a_table(self):
-        remarks = results_page.remarks_in(PUBLISHED)
-        page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-        for revision, remark in remarks.items():
-            cells = {row["cell"] for row in read_tables(PUBLISHED)["errors.csv"]
-                     if row["revision"] == revision}
-            self.assertTrue(cells, f"revisions.json has {revision}, and no row of errors.csv")
-            for cell in cells:
-                self.assertRegex(page, rf"(?m)^\| `{cell}` \| \w+ \| {revision}, {remark} \|$")
-
     def test_no_tested_frame_of_a_peer_is_a_sum_of_frames_that_it_was_trained_on(self):
         rows = read_tables(PUBLISHED)["peers.csv"]
         trained = [row for row in rows if row["trained_on"]]
