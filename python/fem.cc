@@ -2,6 +2,7 @@
 // Homogenization for Python, on one rank. MPI starts with the first call and ends with the
 // interpreter.
 #include "homogenization/lint/cell_frame.h"
+#include "homogenization/lint/cell_lint.h"
 #include "homogenization/lint/cell_reading.h"
 #include "homogenization/lint/conformity.h"
 #include "python/arrays.h"
@@ -237,6 +238,15 @@ UnitCell periodic(UnitCell cell)
     throw meshes::BadInput(faults);
   cell.mesh    = std::move(matched.mesh);
   cell.lattice = matched.lattice;
+  std::vector<homogenization::Finding> findings =
+    homogenization::lint_mechanisms(cell.mesh, cell.lattice, 1.);
+  for (const homogenization::Finding &one : homogenization::lint_contrast(cell))
+    findings.push_back(one);
+  for (const homogenization::Finding &one : findings)
+    if (one.severity == homogenization::Severity::error)
+      faults.push_back(cell.name + ": " + homogenization::text_of(one));
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
   return cell;
 }
 

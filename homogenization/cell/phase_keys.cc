@@ -59,7 +59,14 @@ std::map<std::string, std::vector<double>> group_layers(const std::string &file,
     const std::size_t colon = entry.rfind(':');
     const auto layer        = numbers(colon == std::string::npos ? entry : entry.substr(colon + 1));
     if (colon != std::string::npos)
-      of_group = &values[trimmed(entry.substr(0, colon))];
+    {
+      const std::string group    = trimmed(entry.substr(0, colon));
+      const auto [place, is_new] = values.try_emplace(group);
+      of_group                   = &place->second;
+      if (!is_new)
+        faults.push_back(file + ": key `Layers`: group `" + group +
+                         "` is given twice; expected once, with all of its layers behind it");
+    }
     if (of_group && layer && layer->size() == 3)
       of_group->insert(of_group->end(), layer->begin(), layer->end());
     else if (!trimmed(text).empty())
@@ -212,6 +219,13 @@ void check_names(const std::string &file, const GroupTables &tables, const Group
                          "`, which no triangle of the mesh has; expected one of " + expected +
                          did_you_mean(entry.first, names));
     }
+  for (const auto &[key, values] : of_key)
+    for (const int number : groups.present)
+      if (const std::string &name = groups.name_of(number);
+          name != std::to_string(number) && values->count(name) != 0 &&
+          values->count(std::to_string(number)) != 0)
+        faults.push_back(file + ": key `" + key + "`: group `" + name + "` is given by its name " +
+                         "and by its number, " + std::to_string(number) + "; expected one of both");
 }
 
 /// The phase of a group.

@@ -66,6 +66,7 @@ int first_corner(const meshes::TriangleMesh &mesh, const int triangle, const Tor
 void require_parallelogram(const UnitCell &cell, const meshes::Lattice &lattice,
                            const Eigen::RowVector2d &origin)
 {
+  meshes::require_sheets(lattice); // a force on an edge would be that of its material alone
   const double slack = 2. * meshes::image_tolerance;
   for (int v = 0; v < cell.mesh.n_vertices(); ++v)
   {

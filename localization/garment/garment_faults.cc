@@ -71,6 +71,12 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
       for (int k = 0; k < 3; ++k)
         point +=
           fine.coarse_weights(v, k) * coarse.rest.vertices.row(coarse.rest.triangles(triangle, k));
+      const meshes::Grain &grain = fine.grains[static_cast<std::size_t>(panel)];
+      if (image >= 0)
+        check_image(cell, image,
+                    (fine.rest.vertices.row(v) - grain.origin) * grain.rotation() +
+                      cell.mesh.vertices.row(cell.anchor),
+                    "fine cloth: vertex " + std::to_string(v), faults);
       const double distance = (point - fine.rest.vertices.row(v)).norm();
       if (!(distance <= 1e-6 * std::sqrt(fine.lattice.area()) + 1e-14 * point.norm()))
       {

@@ -57,10 +57,10 @@ double fade_at(const meshes::HomogenizedCell &cell, const meshes::FineCloth &fin
   return fine.seam_distance(v) < fade ? smooth_step(fine.seam_distance(v) / fade) : 1.;
 }
 
-/// A panel without edges on lattice lines is as without edges.
-UpsamplerOptions without_edges(const meshes::HomogenizedCell &cell, UpsamplerOptions options)
+/// A panel without edges on lattice lines is as without edges: its cell is held where it was.
+UpsamplerOptions without_edges(UpsamplerOptions options)
 {
-  if (EdgeModes(cell, options).are_there())
+  if (options.edges != nullptr && options.microscopic)
     options.anchor = Anchor::lattice;
   return options;
 }
@@ -70,7 +70,7 @@ BentModes bent_modes_of_garment(const meshes::HomogenizedCell &cell, const meshe
                                 const std::vector<Panel> &panels, const PlacedVertices &placed)
 {
   const BentModes with_edges = bent_modes(cell, placed.options),
-                  without    = bent_modes(cell, without_edges(cell, placed.options));
+                  without    = bent_modes(cell, without_edges(placed.options));
   BentModes result(fine.n_vertices(), 9);
   for (int v = 0; v < fine.n_vertices(); ++v)
   {
@@ -91,7 +91,7 @@ CellModes modes_of_garment(const meshes::HomogenizedCell &cell, const meshes::Fi
   const UpsamplerOptions &options = placed.options;
   const EdgeModes near_edges(cell, options);
   const CellModes with_edges = cell_modes(cell, options),
-                  without    = cell_modes(cell, without_edges(cell, options));
+                  without    = cell_modes(cell, without_edges(options));
   CellModes result;
   for (int v = 0; v < fine.n_vertices(); ++v)
   {

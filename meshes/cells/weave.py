@@ -3,6 +3,7 @@
 """Moduli of the yarns of a woven cotton cell, from count, sett and cover of its yarns.
 
     weave.py NAME                      the materials of meshes/cells/NAME.prm, as they are shipped
+    weave.py NAME --cover C            of yarns of another width, in pitches (`yarn_width`)
     weave.py NAME --seed N             of a variant whose count, sett and cover are drawn by chance
 
 NAME is plain-weave, twill or satin. A yarn that dives from one face to the other straightens before
@@ -105,8 +106,11 @@ def main():
     parser = argparse.ArgumentParser(description="Moduli of the yarns of a woven cotton cell")
     parser.add_argument("name", choices=sorted(DIVES))
     parser.add_argument("--seed", type=int, help="draw count, sett and cover by chance")
+    parser.add_argument("--cover", type=float, default=SHIPPED["cover"],
+                        help="width of a yarn over the pitch")
     arguments = parser.parse_args()
-    parameters = SHIPPED if arguments.seed is None else drawn(arguments.name, arguments.seed)
+    parameters = ({**SHIPPED, "cover": arguments.cover} if arguments.seed is None else
+                  drawn(arguments.name, arguments.seed))
     width, thickness, pitch = cross_section(**parameters)
     modulus = crimp_modulus(**parameters)
     print(f"# {parameters['tex']:g} tex, {parameters['per_cm']:g} yarns per centimetre, "

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 namespace homespun::meshes
@@ -107,7 +108,7 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
 {
   const std::vector<std::string> faults = faults_of(cell, path);
   if (!faults.empty())
-    throw BadInput(faults);
+    throw std::logic_error(BadInput(faults).what());
 
   Hdf5Writer file(path);
   const auto n = static_cast<unsigned long long>(cell.mesh.n_vertices());

@@ -15,7 +15,8 @@
 namespace homespun::meshes
 {
 /// Writes a cell whole or not at all: to a temporary file beside it, which then takes its name.
-/// @throws BadInput where a value is not finite, or the file cannot be written
+/// @throws std::logic_error where read_cell() would refuse it: whoever made it is wrong
+/// @throws BadInput where the file cannot be written
 void write_cell(const HomogenizedCell &cell, const std::string &file);
 
 /// Reads a cell and holds it against what every cell fulfils: matching shapes, a sound mesh, finite

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace homespun::meshes
@@ -154,10 +155,17 @@ ClothMesh cloth_of(const ObjContent &content, const double vt_unit, const std::s
                           std::min(doubled_area(f[0], f[1], f[2]), doubled_area(f[0], f[2], f[3]));
                  });
 
+  // Some programs write a vt for each corner of a face: those of one place are one.
+  std::map<std::tuple<int, double, double>, int> first; // vt of (v, place)
+  const auto vt_of = [&](const ObjCorner &corner)
+  {
+    const auto [x, y] = content.vt[static_cast<std::size_t>(corner.vt)];
+    return first.emplace(std::tuple(corner.v, x, y), corner.vt).first->second;
+  };
   std::map<std::array<int, 2>, int> rest_vertex; // of (vt, v)
   for (const auto &triangle : triangles)
     for (const ObjCorner &corner : triangle)
-      rest_vertex[{corner.vt, corner.v}] = 0;
+      rest_vertex[{vt_of(corner), corner.v}] = 0;
   ClothMesh cloth;
   cloth.positions = points_of(content.v);
   cloth.rest.vertices.resize(static_cast<Eigen::Index>(rest_vertex.size()), 2);
@@ -177,7 +185,7 @@ ClothMesh cloth_of(const ObjContent &content, const double vt_unit, const std::s
       const ObjCorner &corner = triangles[t][k];
       const auto row = static_cast<Eigen::Index>(t), column = static_cast<Eigen::Index>(k);
       cloth.triangles(row, column)      = corner.v;
-      cloth.rest.triangles(row, column) = rest_vertex.at({corner.vt, corner.v});
+      cloth.rest.triangles(row, column) = rest_vertex.at({vt_of(corner), corner.v});
     }
   if (auto faults = cloth_faults(cloth, file); !faults.empty())
     throw BadInput(std::move(faults));

@@ -53,7 +53,7 @@ public:
       ++number;
       if (!line.empty() && line.back() == '\r')
         line.pop_back();
-      if (!line.empty() && line.back() == '\\')
+      if (!line.empty() && line.back() == '\\' && line.find('#') == std::string::npos)
       {
         line.back() = ' ';
         continued += line;

@@ -16,7 +16,7 @@ namespace
 using Vector  = Eigen::RowVector2d;
 using Polygon = std::vector<Vector>;
 
-/// a1 nearest to the x axis, a1 x a2 > 0.
+/// a1 nearest to the x axis and along it, a1 x a2 > 0.
 Lattice ordered(const Vector &one, const Vector &other)
 {
   Lattice lattice;
@@ -26,6 +26,8 @@ Lattice ordered(const Vector &one, const Vector &other)
     lattice.vectors.row(0).swap(lattice.vectors.row(1));
   if (lattice.vectors.determinant() < 0.)
     lattice.vectors.row(1) *= -1.;
+  if (lattice.vectors(0, 0) < 0.)
+    lattice.vectors *= -1.;
   lattice.vectors.array() += 0.; // prints 0, not -0
   return lattice;
 }
@@ -39,12 +41,7 @@ Lattice reduced(Vector one, Vector other)
       std::swap(one, other);
     const double times = std::round(one.dot(other) / one.squaredNorm());
     if (times == 0. || (other - times * one).norm() >= other.norm() * (1. - 1e-9))
-    {
-      Lattice lattice = ordered(one, other);
-      if (lattice.vectors(0, 0) < 0.)
-        lattice.vectors *= -1.;
-      return lattice;
-    }
+      return ordered(one, other);
     other -= times * one;
   }
 }
@@ -130,21 +127,10 @@ bool is_centrally_symmetric(const Polygon &corners, const double tolerance)
   return true;
 }
 
-/// The lattice of a parallelogram: its two sides that leave the lowest corner, counter-clockwise.
+/// The lattice of a parallelogram: its sides.
 Frame frame_of_parallelogram(const Polygon &corners)
 {
-  std::size_t lowest = 0;
-  for (std::size_t k = 1; k < 4; ++k)
-  {
-    const double scale = (corners[2] - corners[0]).norm();
-    const double dy    = corners[k](1) - corners[lowest](1);
-    if (dy < -1e-9 * scale || (dy < 1e-9 * scale && corners[k](0) < corners[lowest](0)))
-      lowest = k;
-  }
-  Frame frame{{}, {{1, 0}, {0, 1}}};
-  frame.lattice.vectors << corners[(lowest + 1) % 4] - corners[lowest],
-    corners[(lowest + 3) % 4] - corners[lowest];
-  return frame;
+  return {ordered(corners[1] - corners[0], corners[2] - corners[1]), {{1, 0}, {0, 1}}};
 }
 
 /// The lattice of a hexagon: the two shortest of its translations of a side onto the opposite one.

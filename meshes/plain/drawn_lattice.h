@@ -12,7 +12,7 @@ namespace homespun::meshes
 /// A polygon around a drawing that tiles the plane by translations, and these.
 struct Frame
 {
-  Lattice lattice; ///< a1 nearest to the x axis, a1 x a2 > 0
+  Lattice lattice; ///< a1 nearest to the x axis and along it, a1 x a2 > 0
   /// Translations of each side onto the opposite one, in lattice vectors: two or three.
   std::vector<Eigen::RowVector2i> pairs;
 };

@@ -327,14 +327,23 @@ int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice)
   const ImageClasses classes  = match_images(points, lattice);
   const double slack          = image_tolerance * std::sqrt(lattice.area());
 
+  // The corner where both lattice vectors begin, if the outline is their parallelogram.
+  Points fraction(points.rows(), 2);
+  for (Eigen::Index k = 0; k < points.rows(); ++k)
+    fraction.row(k) = lattice.fractional(points.row(k));
+  const Eigen::RowVector2d least = fraction.colwise().minCoeff();
+  const auto begins_there        = [&](const std::size_t k) {
+    return (fraction.row(static_cast<Eigen::Index>(k)) - least).maxCoeff() <= 2. * image_tolerance;
+  };
   std::size_t best = 0;
   for (std::size_t k = 1; k < loop.size(); ++k)
   {
     const auto here = static_cast<Eigen::Index>(k), there = static_cast<Eigen::Index>(best);
     const double dy = points(here, 1) - points(there, 1), dx = points(here, 0) - points(there, 0);
     const bool lower_left = dy < -slack || (dy < slack && dx < -slack);
-    if (classes.size[k] > classes.size[best] ||
-        (classes.size[k] == classes.size[best] && lower_left))
+    if (classes.size[k] != classes.size[best]   ? classes.size[k] > classes.size[best]
+        : begins_there(k) != begins_there(best) ? begins_there(k)
+                                                : lower_left)
       best = k;
   }
   return loop[best];

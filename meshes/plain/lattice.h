@@ -89,6 +89,7 @@ std::string text_of_unmatched(const std::vector<int> &loop, const Points &points
                               const Lattice &lattice, Eigen::Index i, double relative_tolerance);
 
 /// The vertex at which characteristic displacements are anchored: of all vertices the one with the
-/// most images on the sides (the corners of a parallelogram), and of those the lowest-left.
+/// most images on the sides (the corners of a parallelogram), of those the one where both lattice
+/// vectors begin, and where the outline is not their parallelogram the lowest-left.
 int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice);
 } // namespace homespun::meshes

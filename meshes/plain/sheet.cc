@@ -114,6 +114,20 @@ void check_size(const TriangleMesh &cell_mesh, const int n1, const int n2)
 }
 } // namespace
 
+bool makes_sheets(const TriangleMesh &cell_mesh, const Lattice &lattice)
+{
+  try
+  {
+    require_sheets(lattice);
+    nodes_of(cell_mesh, lattice, cell_mesh.vertices.row(anchor_vertex(cell_mesh, lattice)));
+    return true;
+  }
+  catch (const BadInput &)
+  {
+    return false;
+  }
+}
+
 Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
 {
   require_sheets(lattice);

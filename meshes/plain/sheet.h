@@ -58,6 +58,9 @@ struct Sheet
   Eigen::Matrix2d sides() const;
 };
 
+/// Whether tile() takes a cell.
+bool makes_sheets(const TriangleMesh &cell_mesh, const Lattice &lattice);
+
 /// Tiles a periodic cell whose outline is the parallelogram of its lattice.
 /// @param cell_mesh periodic modulo the lattice
 /// @param n1, n2 number of cells along a1 and a2, at least 1

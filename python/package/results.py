@@ -17,12 +17,18 @@ if typing.TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-_NAMES = {"cell", "load", "reference", "method", "frame", "frame_crc32"}  # text, also of digits
+# Text, also where all of it is digits or nothing: columns of every table, and of one.
+_TEXT = set("""
+    base case cell claim cloth converge.limit criterion derivation ended_by fault frame_crc32 h_unit
+    homogenized_law id indicator judgement kind kind_of_claim law limits.axis load long_waves measure mesh
+    method note of outcome part path place quantity reference reference_stability region relation
+    scale scene stress.axis study term theory_is upsample.frame value_is variant wave waves
+    way what why""".split())
 
 
-def _column(name: str, texts: list[str]) -> NDArray[typing.Any]:
-    """Numbers where all entries are some or empty, which is not a number; else text."""
-    if name in _NAMES:
+def _column(table: str, name: str, texts: list[str]) -> NDArray[typing.Any]:
+    """Numbers, not a number where nothing stands; text where that is what the column holds."""
+    if name in _TEXT or f"{table}.{name}" in _TEXT:
         return numpy.array(texts, dtype=str)
     try:
         return numpy.array([float(text) if text else numpy.nan for text in texts])
@@ -33,7 +39,7 @@ def _column(name: str, texts: list[str]) -> NDArray[typing.Any]:
 def _table(path: pathlib.Path) -> NDArray[numpy.void]:
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
-    columns = {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(header)}
+    columns = {name: _column(path.stem, name, [row[k] for row in rows]) for k, name in enumerate(header)}
     table = numpy.empty(len(rows), dtype=[(name, values.dtype) for name, values in columns.items()])
     for name, values in columns.items():
         table[name] = values

@@ -106,6 +106,14 @@ public:
     return "contact with " + obstacle.name;
   }
 
+  void attach(const BlockMatrix &matrix) override
+  {
+    ExternalTerm::attach(matrix);
+    is_held.clear();
+    for (int v = 0; v < matrix.n_vertices(); ++v)
+      is_held.push_back(matrix.is_free(v) ? 0 : 1);
+  }
+
   void begin_step(const StepStart &start) override;
 
   double energy(const Vectors &x) const override
@@ -187,6 +195,7 @@ private:
   Obstacle obstacle;
   Eigen::VectorXd masses;
   ContactParameters parameters;
+  std::vector<char> is_held; ///< of vertices; none: all are free
   std::vector<HalfSpace> contacts;
 };
 
@@ -206,6 +215,8 @@ void Contact::begin_step(const StepStart &start)
   contacts.clear();
   for (int v = 0; v < static_cast<int>(start.positions.rows()); ++v)
   {
+    if (index(v) < is_held.size() && is_held[index(v)] != 0)
+      continue; // no force moves it, and whoever holds it would be said to bear a penalty
     Approach vertex;
     vertex.index = v;
     vertex.after = after;
@@ -251,9 +262,14 @@ void Contact::touch(const Approach &vertex, const SurfacePoint &near)
 {
   const double h = vertex.step, t = parameters.thickness;
   const Eigen::Vector3d &n = near.normal;
-  const double goal        = std::min(t, near.distance + h * parameters.recovery_speed),
-               offset      = n.dot(vertex.here) - near.distance + goal,
-               below       = offset - n.dot(vertex.here + vertex.way + vertex.fall);
+  // No faster than its weight stops it where the contact ends: it would be thrown.
+  const double weight = vertex.fall.norm() / (h * h), gap = t - near.distance,
+               rise   = weight > 0.
+                          ? std::min(parameters.recovery_speed, std::sqrt(2. * weight * gap))
+                          : parameters.recovery_speed;
+  const double goal   = std::min(t, near.distance + h * rise),
+               offset = n.dot(vertex.here) - near.distance + goal,
+               below  = offset - n.dot(vertex.here + vertex.way + vertex.fall);
   if (!(below > 0.))
     return; // it leaves
   const double force = vertex.hard * (goal - near.distance),

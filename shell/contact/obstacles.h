@@ -58,13 +58,15 @@ struct ContactParameters
   double thickness = 1e-3; ///< distance at which contact begins [m]
   double stiffness =
     0.; ///< per vertex [N/m]; 0: 1000 m/h², which an equilibrium (h infinite) cannot take
-  double slip_speed     = 1e-3; ///< below it, friction sticks [m/s]
-  double recovery_speed = 1.;   ///< at which a vertex that is inside is pushed out [m/s]
+  double slip_speed = 1e-3; ///< below it, friction sticks [m/s]
+  /// At which a vertex within the thickness is pushed out at most [m/s]; where there is gravity, no
+  /// faster than it comes to rest at the thickness.
+  double recovery_speed = 1.;
   Eigen::Vector3d gravity =
     Eigen::Vector3d::Zero(); ///< that the scene has, for looking ahead [m/s²]
 };
 
-/// The contact of all vertices with one body.
+/// The contact of all vertices with one body, but for those that are held.
 /// @param masses (n) per vertex [kg], positive
 /// @throws BadInput with all faults of the parameters; begin_step() throws it where a stiffness is
 ///   needed

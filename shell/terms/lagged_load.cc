@@ -44,6 +44,15 @@ public:
   {
     add_gradient(positions, gradient);
   }
+  bool has_discrete_gradient() const override
+  {
+    return true;
+  }
+  void add_discrete_gradient(const Vectors &, const Vectors &x, Vectors &gradient,
+                             VertexMatrix &) const override
+  {
+    add_gradient(x, gradient);
+  }
   bool does_work() const override
   {
     return true;

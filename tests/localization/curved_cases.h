@@ -63,11 +63,10 @@ inline FineSurface curved(const tests::Cloth &cloth, const Positions<3> &current
   return fine;
 }
 
-/// A cell without chi that deflects by smooth periodic functions when it is bent, zero at its
-/// corners.
-inline meshes::HomogenizedCell deflecting_cell(const meshes::Lattice &lattice, const int n)
+/// Lets a cell deflect by smooth periodic functions when it is bent, zero at its corners.
+inline void let_deflect(meshes::HomogenizedCell &cell)
 {
-  meshes::HomogenizedCell cell = tests::plain_cell(lattice, n, n);
+  const meshes::Lattice &lattice = cell.lattice;
   cell.bending.emplace();
   cell.bending->stiffness.setIdentity();
   cell.bending->deflection.resize(cell.mesh.n_vertices(), 3);
@@ -78,6 +77,13 @@ inline meshes::HomogenizedCell deflecting_cell(const meshes::Lattice &lattice, c
       std::sin(f(0) - f(1)) + 0.5 * std::sin(f(1));
   }
   cell.bending->deflection *= 0.02 * lattice.area();
+}
+
+/// A cell without chi that deflects.
+inline meshes::HomogenizedCell deflecting_cell(const meshes::Lattice &lattice, const int n)
+{
+  meshes::HomogenizedCell cell = tests::plain_cell(lattice, n, n);
+  let_deflect(cell);
   return cell;
 }
 } // namespace homespun::localization

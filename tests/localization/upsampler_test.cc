@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
+#include "localization/upsampler_faults.h"
 #include "meshes/plain/errors.h"
 #include "tests/localization/localization_cases.h"
 #include "tests/meshes/plain/plain_cell.h"
@@ -331,4 +332,16 @@ TEST(tripwire_upsampler, faults_are_named)
          "coarse vertex 7: its position is not finite");
   expect(refusal([&] { upsampler.upsample(Positions<3>::Zero(4, 3), fine); }),
          "have 4 rows; expected 20");
+}
+
+TEST(tripwire_upsampler, a_sheet_of_another_mesh_of_the_same_lattice_is_named)
+{
+  const meshes::Lattice lattice         = tests::skewed_lattice();
+  const meshes::HomogenizedCell cell    = tests::plain_cell(lattice, 6, 6),
+                                other   = tests::plain_cell(lattice, 5, 6);
+  const meshes::Sheet sheet             = meshes::tile(other.mesh, lattice, 2, 2);
+  const std::vector<std::string> faults = sheet_faults(cell, sheet);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].find("it was tiled from another cell"), std::string::npos);
+  EXPECT_TRUE(sheet_faults(other, sheet).empty());
 }

@@ -76,6 +76,16 @@ class Homogenize(Refusing):
                        "            assert (getattr(cell, name).lower == getattr(one, name).lower).all()",
                        CELL)
 
+    def test_a_part_that_nothing_holds_is_refused(self):
+        vertices, triangles, groups = striped(8)
+        corner = (triangles % 9).min(axis=1), (triangles // 9).min(axis=1)
+        ring = numpy.max([abs(corner[0] - 3.5), abs(corner[1] - 3.5)], axis=0)
+        kept = ring != 1.5  # squares around a middle of 2 x 2, which then floats
+        used, numbers = numpy.unique(triangles[kept], return_inverse=True)
+        with self.assertRaisesRegex(homespun.BadInput, "floats"):
+            homespun.homogenize(vertices=vertices[used], triangles=numbers.reshape(-1, 3),
+                                groups=groups[kept], phases=[SOFT, HARD])
+
     def test_without_bars_the_cell_problems_alone(self):
         cell = homespun.homogenize(CELL, bars=False)
         numpy.testing.assert_array_equal(cell.stiffness, homespun.homogenize(CELL).stiffness)

@@ -172,9 +172,10 @@ private:
   /// In linear theory all curvatures are one.
   void add_linear(const CellTwice &cell, const BendingLoad &load)
   {
-    const BentSheet sheet     = linear_sheet(cell, load, options.n_cells);
-    const OptionalErrors bars = carried_bars(distance_of_meshes(cell, load, n_small()),
-                                             growth_in_linear_theory(ratio_to_small()));
+    const BentSheet sheet = linear_sheet(cell, load, options.n_cells);
+    const OptionalErrors bars =
+      carried_bars(distance_of_meshes(cell, load, n_small()),
+                   growth_in_linear_theory(ratio_to_small()), cell.factor_of_bars());
     for (const double bending : options.curvatures)
     {
       const double curvature = bending / side_of(cell);
@@ -225,11 +226,12 @@ private:
         {
           leave_out(cell, load, "error bars at", bending, failure);
         }
-        add_rows(cell, load, sheet.sheet,
-                 {biot, bending, bent.error_of_method,
-                  carried_bars(distances, growth_at_large_turns(ratio_to_small())),
-                  sheet.sheet.mesh.n_triangles(), bent.curvature, bent.deflection, bent.seconds,
-                  bent.seconds_reference});
+        add_rows(
+          cell, load, sheet.sheet,
+          {biot, bending, bent.error_of_method,
+           carried_bars(distances, growth_at_large_turns(ratio_to_small()), cell.factor_of_bars()),
+           sheet.sheet.mesh.n_triangles(), bent.curvature, bent.deflection, bent.seconds,
+           bent.seconds_reference});
       }
       catch (const meshes::NotConverged &failure)
       {

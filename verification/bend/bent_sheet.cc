@@ -34,11 +34,13 @@ struct CoarsePoint
 /// @param fraction on the sheet @param n quads along a side
 CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
 {
+  // On a line of the mesh rounding must not choose the side.
+  constexpr double snap          = 1e-6;
   const Eigen::RowVector2d place = fraction * n;
-  const int i                    = std::clamp(static_cast<int>(place(0)), 0, n - 1),
-            j                    = std::clamp(static_cast<int>(place(1)), 0, n - 1);
+  const int i                    = std::clamp(static_cast<int>(place(0) + snap), 0, n - 1),
+            j                    = std::clamp(static_cast<int>(place(1) + snap), 0, n - 1);
   const double f = place(0) - i, g = place(1) - j;
-  if (f >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
+  if (f + snap >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
     return {2 * (j * n + i), {1. - f, f - g, g}};
   return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
 }

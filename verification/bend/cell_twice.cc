@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "verification/bend/cell_twice.h"
 
+#include "homogenization/bracket/bending_bracket.h"
+#include "homogenization/cell/corners.h"
 #include "meshes/plain/refine.h"
 #include "verification/cell/discretization_distance.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -43,6 +47,16 @@ CellTwice::CellTwice(const UnitCell &cell)
 {
 }
 
+double CellTwice::factor_of_bars() const
+{
+  const homogenization::Singularity corners =
+    homogenization::singularity_of(homogenization::corners_of(
+      drawn.cell.mesh, drawn.cell.lattice,
+      homogenization::analogous_membranes(drawn.bending_stiffness_of_phase)));
+  const double order = corners.exists ? std::min(2. * corners.strongest, 2.) : 2.;
+  return std::max(safety_unconfirmed, 1.25 / (1. - std::pow(2., -order)));
+}
+
 OptionalErrors distance_of_meshes(const CellTwice &cell, const BendingLoad &load, const int n)
 {
   const BentSheet drawn(cell.drawn, load, n, macro_quads_per_cell(n)),
@@ -78,13 +92,12 @@ BentSheet::OfMethods<double> growth_at_large_turns(const double ratio)
 }
 
 OptionalErrors carried_bars(const OptionalErrors &distances,
-                            const BentSheet::OfMethods<double> &growth)
+                            const BentSheet::OfMethods<double> &growth, const double factor)
 {
   OptionalErrors bars = distances;
   for (std::size_t k = 0; k < bars.size(); ++k)
     if (bars[k])
-      *bars[k] = {safety_unconfirmed * growth[k] * bars[k]->position,
-                  safety_unconfirmed * bars[k]->normal};
+      *bars[k] = {factor * growth[k] * bars[k]->position, factor * bars[k]->normal};
   return bars;
 }
 } // namespace homespun::verification

@@ -18,6 +18,11 @@ struct CellTwice
   const BendingCell drawn;
   const homogenization::UnitCell refined_unit;
   const BendingCell finer;
+
+  /// Of the distance between both meshes, for the error of the drawn one: 1.25 / (1 - 2^-q), q
+  /// twice the exponent of the strongest corner and at most 2, and no less than what is asked of
+  /// two meshes whose order is not confirmed.
+  double factor_of_bars() const;
 };
 
 using OptionalErrors = BentSheet::OfMethods<std::optional<BendingError>>;
@@ -43,5 +48,5 @@ BentSheet::OfMethods<double> growth_at_large_turns(double ratio);
 /// Bars from the distances on a small sheet: three times, because two meshes confirm no order
 /// (Roache 1994), and in position by a growth.
 OptionalErrors carried_bars(const OptionalErrors &distances,
-                            const BentSheet::OfMethods<double> &growth);
+                            const BentSheet::OfMethods<double> &growth, double factor);
 } // namespace homespun::verification

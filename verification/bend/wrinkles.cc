@@ -28,9 +28,10 @@ WrinkleOnset parabola(const PlateWaves &waves, const Eigen::Vector2d &direction,
           middle - (left - right) * (left - right) / (8. * bend)};
 }
 
+/// @param factor of the distance between both meshes, for bars
 /// @param row has the wavelength of D^H
 void resolve(const PlateWaves &drawn, const PlateWaves &finer, const Eigen::Vector2d &direction,
-             const double foundation, WrinkleRow &row)
+             const double foundation, const double factor, WrinkleRow &row)
 {
   const double turn        = 2. * std::acos(-1.);
   const WrinkleOnset onset = drawn.onset(direction, turn / row.homogenized_wavelength, foundation),
@@ -38,9 +39,8 @@ void resolve(const PlateWaves &drawn, const PlateWaves &finer, const Eigen::Vect
                      there = parabola(finer, direction, onset, foundation);
   row.wavelength           = turn / here.wavenumber;
   row.compression          = here.compression;
-  row.wavelength_bar =
-    safety_unconfirmed * std::abs(turn / here.wavenumber - turn / there.wavenumber);
-  row.compression_bar = safety_unconfirmed * std::abs(here.compression - there.compression);
+  row.wavelength_bar       = factor * std::abs(turn / here.wavenumber - turn / there.wavenumber);
+  row.compression_bar      = factor * std::abs(here.compression - there.compression);
 }
 } // namespace
 
@@ -79,7 +79,7 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
       row.most_compression        = 2. * std::sqrt(row.foundation * mean_D);
       try
       {
-        resolve(drawn, finer, n, row.foundation / covered, row);
+        resolve(drawn, finer, n, row.foundation / covered, cell.factor_of_bars(), row);
       }
       catch (const meshes::NotConverged &)
       {

@@ -87,30 +87,45 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
           check_of_limit(cell, limit), check_of_measures(result.stiffness)};
 }
 
+/// e − eps(chi) in a triangle of the given mesh in which chi is linear, a column for each load.
+Eigen::Matrix3d strain_of(const meshes::Chi &chi, const UnitCell &cell, const int triangle)
+{
+  const Eigen::RowVector3i corners = cell.mesh.triangles.row(triangle);
+  Eigen::Matrix2d sides;
+  Eigen::Matrix<double, 2, 6> change;
+  for (int k = 0; k < 2; ++k)
+  {
+    sides.row(k)  = cell.mesh.vertices.row(corners(k + 1)) - cell.mesh.vertices.row(corners(0));
+    change.row(k) = chi.row(corners(k + 1)) - chi.row(corners(0));
+  }
+  const Eigen::Matrix<double, 2, 6> gradient = sides.inverse() * change; // row d: derivative by x_d
+  Eigen::Matrix3d strain                     = Eigen::Matrix3d::Identity();
+  for (int load = 0; load < 3; ++load)
+    strain.col(load) -= Eigen::Vector3d(gradient(0, 2 * load), gradient(1, 2 * load + 1),
+                                        gradient(1, 2 * load) + gradient(0, 2 * load + 1));
+  return strain;
+}
+
+/// The strains of a chi that is linear in each triangle.
+homogenization::UnitStrains strains_of(const meshes::Chi &chi, const UnitCell &cell)
+{
+  homogenization::UnitStrains strains(cell.mesh.n_triangles(), 9);
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+    strains.row(t) = strain_of(chi, cell, t).reshaped().transpose();
+  return strains;
+}
+
 /// C of displacements that are linear in each triangle of the given mesh, 1/|Y| integral (e −
 /// eps(chi)):c:(e − eps(chi)).
 Eigen::Matrix3d energies_of(const meshes::Chi &chi, const UnitCell &cell)
 {
   const std::vector<Eigen::Matrix3d> c = cell.stiffness_of_phase();
+  const Eigen::VectorXd areas          = meshes::signed_areas(cell.mesh);
   Eigen::Matrix3d energy               = Eigen::Matrix3d::Zero();
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
-    const Eigen::RowVector3i corners = cell.mesh.triangles.row(t);
-    const Eigen::RowVector2d first   = cell.mesh.vertices.row(corners(0));
-    Eigen::Matrix2d sides;
-    Eigen::Matrix<double, 2, 6> change;
-    for (int k = 0; k < 2; ++k)
-    {
-      sides.row(k)  = cell.mesh.vertices.row(corners(k + 1)) - first;
-      change.row(k) = chi.row(corners(k + 1)) - chi.row(corners(0));
-    }
-    const Eigen::Matrix<double, 2, 6> gradient =
-      sides.inverse() * change; // row d: derivative by x_d
-    Eigen::Matrix3d strain = Eigen::Matrix3d::Identity();
-    for (int load = 0; load < 3; ++load)
-      strain.col(load) -= Eigen::Vector3d(gradient(0, 2 * load), gradient(1, 2 * load + 1),
-                                          gradient(1, 2 * load) + gradient(0, 2 * load + 1));
-    energy += 0.5 * std::abs(sides.determinant()) * strain.transpose() *
+    const Eigen::Matrix3d strain = strain_of(chi, cell, t);
+    energy += std::abs(areas(t)) * strain.transpose() *
               c[static_cast<std::size_t>(cell.mesh.material(t))] * strain;
   }
   return energy / cell.lattice.area();
@@ -192,9 +207,11 @@ void add_bracket(const UnitCell &cell, const BracketOptions &options,
   if (!options.tolerance || !assessed.bracket->bracket || is_of_drawing(assessed))
     return;
   const homogenization::Bracket &found = *assessed.bracket->bracket;
+  assessed.is_replaced                 = assessed.bracket->history.size() > 1;
   assessed.result.stiffness            = found.stiffness;
   assessed.result.stiffness_by_flux    = found.stiffness_by_flux;
   assessed.result.chi                  = found.chi.topRows(cell.mesh.n_vertices());
+  assessed.result.strains              = strains_of(assessed.result.chi, cell);
   assessed.result.n_dofs               = found.n_displacement_dofs;
   assessed.result.iterations.fill(found.iterations);
   assessed.result.seconds       = {}; // those were of the given mesh
@@ -215,6 +232,20 @@ void add_bending(const UnitCell &cell, const BracketOptions &options,
     assessed.bending->roll = roll_of(cell, options);
   for (const Verdict &check : checks_of(*assessed.bending, options))
     assessed.checks.push_back(check);
+}
+
+KnownEdges edges_beside(const UnitCell &cell, const AssessedCell &assessed)
+{
+  if (assessed.edges)
+    return *assessed.edges;
+  if (!assessed.is_of_given_mesh())
+  {
+    KnownEdges none;
+    none.why_not = "they belong to the chi of the mesh as given, and this one is of a finer mesh: "
+                   "leave --refine and --tolerance out, or give that mesh";
+    return none;
+  }
+  return affordable_edges(cell, assessed.options.order);
 }
 
 meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const AssessedCell &assessed,

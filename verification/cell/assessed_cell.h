@@ -35,6 +35,13 @@ struct AssessedCell
   std::string folder;                 ///< of the files that it was read from; empty: it was solved
   /// Largest resident memory of each rank since the program began [bytes]; on the first rank alone.
   std::vector<double> peak_memory_of_rank;
+  bool is_replaced = false; ///< C^H and chi are those of the last mesh of an adaptive bracket
+
+  /// Whether C^H and chi are of the mesh as given, at whose vertices chi is written.
+  bool is_of_given_mesh() const
+  {
+    return options.refine == 0 && !is_replaced;
+  }
 };
 
 /// Whether the bracket is that of a drawing whose phases have curved sides.
@@ -62,6 +69,9 @@ void add_estimate(const homogenization::UnitCell &cell, unsigned long max_dofs,
 /// @param report is told of each step, one line
 void add_bending(const homogenization::UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed);
+
+/// Edges that belong to the chi that is written: none of a cell whose chi is of a finer mesh.
+KnownEdges edges_beside(const homogenization::UnitCell &cell, const AssessedCell &assessed);
 
 /// What the runtime needs of it, with its bending where that is known.
 meshes::HomogenizedCell homogenized_cell(const homogenization::UnitCell &cell,

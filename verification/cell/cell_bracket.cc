@@ -6,6 +6,7 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
 #include "verification/cell/energy_order.h"
+#include "verification/cell/moduli_bars.h"
 #include "verification/record/claim.h"
 
 #include <chrono>
@@ -195,6 +196,9 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
     gap = larger(gap, 1. - strain.dot(found.lower * strain) / strain.dot(found.upper * strain));
   checks.push_back(at_most("bracket.widest-load", {}, gap,
                            found.width + 64. * std::numeric_limits<double>::epsilon()));
+  if (checks.front().outcome == Outcome::pass)
+    checks.push_back(
+      check_of_moduli("C^H", found.stiffness.inverse(), compliance_bars(found.lower, found.upper)));
   // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does
   // not. That C lies above C_lower follows from both.
   const double difference = energy_difference(*bracket.on_given_mesh, stiffness), most = 1e-6;

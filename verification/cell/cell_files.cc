@@ -349,6 +349,7 @@ ShellSection section_of(const UnitCell &cell, const AssessedCell &assessed)
   return {cell.name, assessed.result.stiffness, assessed.bending->bracket->stiffness,
           cell.areal_density(), volume / areas.sum()};
 }
+
 /// The files of write_cell_results(), and no others that a study has put there.
 void copy_cell_results(const std::string &from, const std::string &to)
 {
@@ -374,9 +375,8 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
     return;
   }
   meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
-  const KnownEdges known =
-    assessed.edges ? *assessed.edges : affordable_edges(cell, assessed.options.order);
-  homogenized.edges = known.edges;
+  const KnownEdges known              = edges_beside(cell, assessed);
+  homogenized.edges                   = known.edges;
   meshes::write_cell(homogenized, folder + "/cell.h5");
   write_vtu(cell, assessed, folder + "/characteristic-displacements.vtu");
   write_json(folder + "/cell.json", cell_json(cell));

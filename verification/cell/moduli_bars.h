@@ -3,8 +3,11 @@
 #pragma once
 
 #include "homogenization/fem/homogenize.h"
+#include "verification/record/verdict.h"
 
 #include <Eigen/Core>
+
+#include <string>
 
 namespace homespun::verification
 {
@@ -15,4 +18,11 @@ Eigen::Matrix3d compliance_bars(const Eigen::Matrix3d &lower, const Eigen::Matri
 /// Bars of moduli from those of the compliance S.
 homogenization::EngineeringConstants bars_of_moduli(const Eigen::Matrix3d &S,
                                                     const Eigen::Matrix3d &bars);
+
+/// The claim that bars of moduli hold: the largest distance of a modulus from that of S, over its
+/// bar, where each entry of the compliance lies at an end of its own bar, is 1 by definition.
+/// Round-off of a modulus counts as a part of its bar; infinite bars hold everything.
+/// @param stiffness its name
+Verdict check_of_moduli(const std::string &stiffness, const Eigen::Matrix3d &S,
+                        const Eigen::Matrix3d &bars);
 } // namespace homespun::verification

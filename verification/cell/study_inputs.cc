@@ -44,8 +44,10 @@ std::string fingerprint(const UnitCell &cell)
     hash = hashed(hashed(hash, Eigen::Vector2i(side.a, side.b)), side.sagitta);
   for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
     hash = hashed(hash, stiffness);
+  for (const Eigen::Matrix3d &stiffness : cell.bending_stiffness_of_phase())
+    hash = hashed(hash, stiffness); // layers of another order have the same c
   for (const homogenization::Phase &phase : cell.phases)
-    hash = hashed(hash, Eigen::Vector2d(phase.thickness, phase.density)); // D^H knows the first
+    hash = hashed(hash, Eigen::Vector2d(phase.thickness, phase.density));
   return printed(hash);
 }
 

@@ -114,14 +114,18 @@ void narrow(const UnitCell &cell, const unsigned int order, const ConvergenceSiz
                        begin);
            }))
     mesh = meshes::refined(mesh, 1);
-  // What so few DoFs cannot decide is no claim.
-  if (adaptive.levels.size() >= fewest_uneven_levels ||
-      ending != homogenization::AdaptiveEnd::max_dofs)
+  // What so few DoFs cannot decide is no claim, but if there is no other.
+  const bool is_narrowing = uniform.levels.size() >= 2 && !adaptive.levels.empty(),
+             has_order    = adaptive.levels.size() >= fewest_uneven_levels ||
+                         ending != homogenization::AdaptiveEnd::max_dofs;
+  if (has_order || !is_narrowing)
     adaptive.judgement = judge_uneven_errors(adaptive.sizes(), adaptive.errors(),
                                              about(2. * order, adaptive_order_tolerance));
+  if (!has_order && !is_narrowing)
+    adaptive.judgement->outcome = Outcome::inconclusive;
   result.add(adaptive, "adaptive.order", {{"order", order}, {"twice", 2 * order}});
   result.add(uniform);
-  if (uniform.levels.size() >= 2 && !adaptive.levels.empty())
+  if (is_narrowing)
     result.verdicts.push_back(is_narrower(adaptive, uniform));
 }
 

@@ -265,7 +265,14 @@ void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress 
     TimedCloth as_it_is(draped, {});
     std::optional<TimedCloth> with_term;
     if (!row.is_present)
-      with_term.emplace(draped, std::set<std::string>{term});
+      try
+      {
+        with_term.emplace(draped, std::set<std::string>{term});
+      }
+      catch (const meshes::BadInput &)
+      {
+        // This integrator or mesh cannot take the term: it has no cost.
+      }
     for (int k = 0; k < n_steps; ++k)
     {
       as_it_is.step();

@@ -2,8 +2,8 @@
 #include "verification/drape/drape_error_bar.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/cell/discretization_distance.h"
 #include "verification/drape/fine_run.h"
+#include "verification/record/verdict.h"
 
 #include <limits>
 #include <memory>
@@ -63,23 +63,35 @@ public:
   std::vector<std::unique_ptr<FineRun>> fine;
 };
 
-double carried(const std::vector<double> &bar, const std::vector<double> &fluctuation,
-               const std::size_t frame, const double fluctuation_there)
+/// The largest up to a frame of what a bar is carried over with, and of the bar; not a number where
+/// that frame was not reached.
+template <typename BarOf>
+double carried(const DrapeErrorBar &bar, const std::size_t frame, const double largest_there,
+               const BarOf &bar_of)
 {
-  if (frame >= bar.size() || !(fluctuation[frame] > 0.))
+  if (frame >= bar.fluctuation.size())
     return std::numeric_limits<double>::quiet_NaN();
-  return bar[frame] / fluctuation[frame] * fluctuation_there;
+  double largest = 0., fluctuation = 0.;
+  for (std::size_t k = 0; k <= frame; ++k)
+  {
+    largest     = larger(largest, bar_of(k));
+    fluctuation = larger(fluctuation, bar.fluctuation[k]);
+  }
+  return fluctuation > 0. ? largest / fluctuation * largest_there
+                          : std::numeric_limits<double>::quiet_NaN();
 }
 } // namespace
 
-double DrapeErrorBar::of_mesh_at(const std::size_t frame, const double fluctuation_there) const
+double DrapeErrorBar::of_mesh_at(const std::size_t frame, const double largest_there) const
 {
-  return carried(of_mesh, fluctuation, frame, fluctuation_there);
+  return carried(*this, frame, largest_there,
+                 [this](const std::size_t k) { return meshes[k].uncertainty(order); });
 }
 
-double DrapeErrorBar::of_time_step_at(const std::size_t frame, const double fluctuation_there) const
+double DrapeErrorBar::of_time_step_at(const std::size_t frame, const double largest_there) const
 {
-  return 1.25 * 2. * carried(halved_step, fluctuation, frame, fluctuation_there);
+  return carried(*this, frame, largest_there,
+                 [this](const std::size_t k) { return 1.25 * 2. * halved_step[k]; });
 }
 
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
@@ -88,7 +100,6 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
 {
   const Scene scene = scaled(draped.scene, n_cells);
   const DrapedCell sheet(scene, draped.cell, draped.homogenized, draped.law);
-  const double order       = order_of_p2(draped.cell, order_of_p2_sheet);
   const Upsampler3d affine = sheet.upsampler<double>(Method("affine")),
                     method = sheet.upsampler<double>(Method("localized"));
   const auto upsampled     = [](const Upsampler3d &upsampler, const Runs &runs)
@@ -104,16 +115,16 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
   halved.fine.push_back(dealii_run(sheet, law, {1, 0}, communicator));
 
   DrapeErrorBar bar;
+  bar.order = order_of_p2(draped.cell, order_of_p2_sheet);
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {
     tell(frame);
     if (!runs.advance(schedule, frame) || (!schedule.is_static && !halved.advance(schedule, frame)))
       return bar;
     const SpacePoints &p1 = runs.fine[0]->positions(), &p2 = runs.fine[1]->positions(),
-                      &refined            = runs.fine[2]->positions();
-    const DiscretizationDistance distance = {mean_length(p1 - p2), mean_length(p1 - refined),
-                                             mean_length(p2 - refined)};
-    bar.of_mesh.push_back(distance.uncertainty(order));
+                      &refined = runs.fine[2]->positions();
+    bar.meshes.push_back(
+      {mean_length(p1 - p2), mean_length(p1 - refined), mean_length(p2 - refined), true});
     const SpacePoints change =
       (upsampled(method, runs) - p1) - (upsampled(method, halved) - halved.fine[0]->positions());
     bar.halved_step.push_back(schedule.is_static ? 0. : mean_length(change));

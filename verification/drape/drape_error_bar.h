@@ -3,6 +3,7 @@
 // measured on a small sheet.
 #pragma once
 
+#include "verification/cell/discretization_distance.h"
 #include "verification/drape/drape_schedule.h"
 #include "verification/drape/draped_cell.h"
 
@@ -15,17 +16,20 @@
 namespace homespun::verification
 {
 /// Error bar on a small sheet, per frame. It goes with the local strain, as the fluctuation does,
-/// and is carried over to the full sheet by the ratio of the two.
+/// and is carried over to the full sheet by the ratio of the two: of the largest ones up to a
+/// frame, since where coarse and fine cloth cross the fluctuation of one frame may pass near zero.
 struct DrapeErrorBar
 {
-  std::vector<double> of_mesh;     ///< of the reference, DiscretizationDistance::uncertainty() [m]
+  double order = 0.;                          ///< of P2, order_of_p2()
+  std::vector<DiscretizationDistance> meshes; ///< of the reference [m]
   std::vector<double> halved_step; ///< mean |e(h) − e(h/2)|, e of drape_error_bar() [m]
   std::vector<double> fluctuation; ///< mean |refined P2 − coarse motion| [m]
 
-  /// The bar by mesh or time step on a sheet with another fluctuation [m]; not a number where it is
-  /// not known.
-  double of_mesh_at(std::size_t frame, double fluctuation_there) const;
-  double of_time_step_at(std::size_t frame, double fluctuation_there) const;
+  /// The bar by mesh, DiscretizationDistance::uncertainty(), or by time step on another sheet [m];
+  /// not a number where it is not known.
+  /// @param largest_there the largest fluctuation up to that frame [m]
+  double of_mesh_at(std::size_t frame, double largest_there) const;
+  double of_time_step_at(std::size_t frame, double largest_there) const;
 };
 
 /// Runs the scene on a small sheet: P1, P2, refined P2, and where the cloth moves P1 and the coarse

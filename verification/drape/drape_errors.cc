@@ -14,6 +14,17 @@ using meshes::SpacePoints;
 namespace
 {
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// The largest mean fluctuation before a frame [m]; not a number where none is known.
+double largest_fluctuation(const std::vector<DrapeRow> &rows, const std::string &cell,
+                           const std::string &reference, const int frame)
+{
+  double largest = not_known;
+  for (const DrapeRow &row : rows)
+    if (row.cell == cell && row.reference == reference && row.frame < frame && row.mean > 0.)
+      largest = std::fmax(largest, row.mean / row.mean_per_fluctuation);
+  return largest;
+}
 } // namespace
 
 DrapeComparison::DrapeComparison(const DrapedCell &draped, const std::vector<std::string> &methods,
@@ -43,8 +54,8 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
                                                          const DrapeErrorBar &bar,
                                                          DrapeOutput &output) const
 {
-  const auto at               = static_cast<std::size_t>(frame);
-  double fluctuation          = not_known;
+  const auto at      = static_cast<std::size_t>(frame);
+  double fluctuation = not_known, largest = not_known;
   const SpacePoints beginning = draped.at_fine_vertices(draped.fine.positions);
   const double displacement   = (positions - beginning).rowwise().norm().mean();
   std::vector<meshes::VertexData> error;
@@ -59,6 +70,8 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
       // Where nothing has moved yet, round-off over round-off is no figure.
       if (fluctuation < 1e-12 * draped.side)
         fluctuation = not_known;
+      largest = std::fmax(
+        fluctuation, largest_fluctuation(output.error_rows(), draped.cell.name, reference, frame));
     }
     for (const std::string &method : methods)
     {
@@ -79,8 +92,8 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
       row.mean_per_cell        = row.mean / draped.side;
       row.mean_per_fluctuation = row.mean / fluctuation;
       row.displacement         = displacement;
-      row.uncertainty          = bar.of_mesh_at(at, fluctuation);
-      row.time_step            = bar.of_time_step_at(at, fluctuation);
+      row.uncertainty          = bar.of_mesh_at(at, largest);
+      row.time_step            = bar.of_time_step_at(at, largest);
       output.write(row);
       if (run.is_main && method == "localized")
         error = {{"error", distance.cast<float>()}};

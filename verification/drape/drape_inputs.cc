@@ -2,10 +2,12 @@
 #include "verification/drape/drape_inputs.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/terms/law_terms.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/drape/draped_cell.h"
 #include "verification/ellipticity/default_law.h"
 #include "verification/record/checksum.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <fstream>
@@ -75,12 +77,19 @@ Scene scene_of(const DrapeOptions &options)
   Scene scene = read_scene(options.scene_file);
   if (!options.cell_files.empty())
     scene.cell_files = options.cell_files;
-  if (options.n_cells > 0)
-    scene = scaled(scene, options.n_cells);
+  if (options.n_cells > 0 && scene.is_sheet())
+  {
+    const std::string before  = scene.echo["Sheet cells"];
+    scene                     = scaled(scene, options.n_cells);
+    scene.echo["Sheet cells"] = std::to_string(scene.n1) + " " + std::to_string(scene.n2);
+    scene.echo["Disturbance"] = short_text(scene.disturbance);
+    if (scene.has("handles"))
+      scene.echo["Handles"] += ", with ways scaled from " + before + " cells";
+  }
   if (options.time_step > 0.)
-    scene.time_step = options.time_step;
+    scene.echo["Time step"] = short_text(scene.time_step = options.time_step);
   if (options.duration > 0.)
-    scene.duration = options.duration;
+    scene.echo["Duration"] = short_text(scene.duration = options.duration);
   return scene;
 }
 
@@ -162,7 +171,24 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
     if (fine_too && !scene.is_sheet() &&
         std::any_of(scene.held.begin(), scene.held.end(),
                     [](const HeldPlace &held) { return held.place == "vertices"; }))
-      DrapedCell(scene, cell, {}, Law::biot).fine_motion();
+    {
+      Scene in_plane = scene; // nothing is homogenized yet, D^H neither
+      in_plane.terms.erase("bending");
+      DrapedCell(in_plane, cell, {}, Law::biot).fine_motion();
+    }
+  }
+}
+
+void check_variant(const DrapedCell &draped, const Law law)
+{
+  try
+  {
+    shell::law_terms(law, draped.coarse, nullptr, draped.effective.stiffness, 0., {});
+  }
+  catch (const meshes::BadInput &fault)
+  {
+    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + draped.cell.name + ": " +
+                           fault.what());
   }
 }
 

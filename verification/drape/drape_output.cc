@@ -132,16 +132,16 @@ DrapeOutput::worst_errors(const std::map<std::string, std::string> &main_variant
 {
   std::map<std::string, double> worst;
   for (const DrapeRow &row : errors.rows())
-    if (row.variant == main_variants.at(row.cell) && row.method == "localized" &&
-        std::isfinite(row.mean_per_cell))
+    if (row.variant == main_variants.at(row.cell) &&
+        row.method == judged_method(errors.rows(), row.cell) && std::isfinite(row.mean_per_cell))
     {
-      double &largest = worst[row.cell + " against " + row.reference];
+      double &largest = worst[row.cell + " against " + row.reference + ": largest mean error of `" +
+                              row.method + "`"];
       largest         = std::max(largest, row.mean_per_cell);
     }
   std::vector<std::string> lines;
   for (const auto &[what, error] : worst)
-    lines.push_back(what + ": largest mean error of `localized` over time " + short_text(error) +
-                    " cell sides");
+    lines.push_back(what + " over time " + short_text(error) + " cell sides");
   return lines;
 }
 } // namespace homespun::verification

@@ -97,6 +97,10 @@ private:
       drape.note(scene.name + ": runs for " + short_text(drape.schedule.duration()) + " s of the " +
                  short_text(scene.duration) + " s asked for, whole frames of " +
                  short_text(drape.schedule.interval) + " s");
+    if (std::abs(drape.schedule.interval / scene.frame_interval - 1.) > 1e-6)
+      drape.note(scene.name + ": frames are " + short_text(drape.schedule.interval) +
+                 " s apart, whole time steps, not the " + short_text(scene.frame_interval) +
+                 " s of the scene file");
     for (const std::string &warning : scene_warnings(scene))
       drape.note(warning);
     for (const UnitCell &cell : cells())
@@ -120,6 +124,10 @@ private:
     if (draped.edges)
       drape.note(cell.name + ": " + sentence_of_edges(draped.kinds_of_edges()));
     nlohmann::ordered_json description = description_of(draped);
+
+    for (const CoarseCloth &cloth : cloths_of_cell(draped))
+      if (cloth.law)
+        check_variant(draped, *cloth.law);
 
     CoarseRuns coarse;
     on_root(communicator,
@@ -249,6 +257,11 @@ private:
                         scene.has(term) ? what : "the scene does not list it"}});
     for (const std::string &line : drape.output->worst_errors(main_variants))
       drape.progress.note(line);
+    std::map<std::string, std::string> parameters = scene.echo;
+    if (!options.cell_files.empty())
+      parameters["Cells"].clear();
+    for (const std::string &file : options.cell_files)
+      parameters["Cells"] += (parameters["Cells"].empty() ? "" : ", ") + file;
     nlohmann::ordered_json told = {
       {"scene", scene.name},
       {"story", scene.story},
@@ -257,7 +270,7 @@ private:
       {"integrator", scene.echo.count("Integrator") ? scene.echo.at("Integrator") : ""},
       {"terms", terms},
       {"cells", cell_descriptions},
-      {"parameters", scene.echo}};
+      {"parameters", parameters}};
     told.update(sizes);
     return {told, what_was_left_out(options, scene), drape.notes, "drape.json"};
   }

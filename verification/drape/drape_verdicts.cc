@@ -75,27 +75,38 @@ Verdict verdict_of_closer(const std::vector<DrapeRow> &rows, const JudgedErrors 
                 why.empty() ? is_below(ratio, bar, 1.) : Outcome::inconclusive, ratio);
 }
 
+std::string judged_method(const std::vector<DrapeRow> &rows, const std::string &cell)
+{
+  std::string method = "affine";
+  for (const DrapeRow &row : rows)
+    if (row.cell == cell && row.method != "affine" && method != "localized")
+      method = row.method;
+  return method;
+}
+
 std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
                                           const double side)
 {
-  const OverTime localized = over_time(rows, of, "localized");
+  const std::string method = judged_method(rows, of.cell);
+  const OverTime errors    = over_time(rows, of, method);
   std::vector<Verdict> verdicts;
-  if (localized.frames.empty())
+  if (errors.frames.empty())
     return verdicts;
-  if (over_time(rows, of, "affine").frames == localized.frames)
-    verdicts.push_back(verdict_of_closer(rows, of, "localized", "affine"));
+  if (method != "affine" && over_time(rows, of, "affine").frames == errors.frames)
+    verdicts.push_back(verdict_of_closer(rows, of, method, "affine"));
   const auto require = [&](const char *what, const double unit, const double limit)
   {
     verdicts.push_back(judged("error-in-scene",
                               {{"cell", of.cell},
                                {"reference", of.reference},
+                               {"method", method},
                                {"unit", what},
                                {"limit", limit},
-                               {"bar", localized.bar / unit}},
-                              is_below(localized.error / unit, localized.bar / unit, limit),
-                              localized.error / unit));
+                               {"bar", errors.bar / unit}},
+                              is_below(errors.error / unit, errors.bar / unit, limit),
+                              errors.error / unit));
   };
-  require("mean displacement", localized.displacement, most_per_displacement);
+  require("mean displacement", errors.displacement, most_per_displacement);
   require("side of a cell", side, most_per_cell);
   return verdicts;
 }

@@ -59,7 +59,10 @@ constexpr double most_per_displacement = 0.05, most_per_cell = 0.1;
 Verdict verdict_of_closer(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
                           const std::string &method, const std::string &other);
 
-/// Judges `localized` against one reference that has an error bar, over the frames after the
+/// The method that is judged: `localized`, or of a run without it the last that is not `affine`.
+std::string judged_method(const std::vector<DrapeRow> &rows, const std::string &cell);
+
+/// Judges judged_method() against one reference that has an error bar, over the frames after the
 /// beginning:
 /// - it is closer than affine, by more than the bars
 /// - the error over the displacement of the reference, and over the side of a cell, is below what

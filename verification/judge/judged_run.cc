@@ -36,9 +36,7 @@ JudgedRun::JudgedRun(const JudgeOptions &options)
     , run(finished_run(options.run))
     , files(files_by_level(options.files))
 {
-  const fs::path inside =
-    fs::weakly_canonical(options.run).lexically_relative(fs::weakly_canonical(options.output));
-  if (!inside.empty() && *inside.begin() != "..")
+  if (lies_in(options.run, options.output))
     throw BadInput("--output " + options.output + ": holds the run that is judged, " + options.run +
                    ", which would be deleted; expected another folder");
   const std::string command = run.value("command", "");

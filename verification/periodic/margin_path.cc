@@ -2,6 +2,7 @@
 #include "verification/periodic/margin_path.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
 #include "verification/periodic/periodic_path.h"
 #include "verification/periodic/supercell.h"
 
@@ -75,7 +76,8 @@ void describe(StabilityRow &row, const MarginLevel &level, const BlochMargin &bl
       row.long_waves = "unstable";
 }
 
-/// Brings the last stable and the first unstable level together.
+/// Brings the last stable and the first unstable level together, as far as states and margins
+/// between them are found.
 void bisect(const std::function<MarginLevel(double, const MarginLevel &)> &level_at,
             MarginLevel &held, MarginLevel &lost)
 {
@@ -91,8 +93,15 @@ void bisect(const std::function<MarginLevel(double, const MarginLevel &)> &level
     part               = std::clamp(part + (part < 0.5 ? aside : -aside), 0.02, 0.98);
     if (step % 4 == 3)
       part = 0.5;
-    const MarginLevel next                = level_at(held.strain + part * width, lost);
-    (next.margin.beta < 0. ? lost : held) = next;
+    try
+    {
+      const MarginLevel next                = level_at(held.strain + part * width, lost);
+      (next.margin.beta < 0. ? lost : held) = next;
+    }
+    catch (const meshes::NotConverged &)
+    {
+      return; // no closer than that
+    }
   }
 }
 
@@ -245,7 +254,7 @@ std::vector<StabilityRow> patterns_of(const BlochMargin &bloch, const LoadContro
                                       const StabilityRow &names)
 {
   std::vector<StabilityRow> rows;
-  if (bloch.assembly.cell.lattice.cuts_holes)
+  if (!meshes::makes_sheets(bloch.assembly.cell.mesh, bloch.assembly.cell.lattice))
     return rows;
   for (std::size_t k = 0; k < levels.size(); ++k)
   {

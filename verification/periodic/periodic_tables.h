@@ -89,10 +89,11 @@ struct StabilityRow
   int number    = 0;    ///< of the level, of the wave, of the level of a pattern, of the vertex
   double strain = none; ///< [-]; of first loss by the line between held_to and lost_at
   /// Of a level `unstable-proved`: a field of the discrete cloth shows it; `stable-up-to-mesh`: no
-  /// wave that was asked does, on this mesh; `not-reached`: Newton's method found no state. Of a
-  /// loss `lost`; `held` up to the last strain; `ended`: no state of the load beyond `held_to`. Of
-  /// a pattern `found`: with less energy; `no-wave`: every wave of these cells is stable;
-  /// `not-found`: where the lowest wave leads to, Newton's method did not come to an end.
+  /// wave that was asked does, on this mesh; `not-reached`: Newton's method found no state, or the
+  /// two sides of its beta do not meet. Of a loss `lost`; `held` up to the last strain; `ended`: no
+  /// state of the load beyond `held_to`. Of a pattern `found`: with less energy; `no-wave`: every
+  /// wave of these cells is stable; `not-found`: where the lowest wave leads to, Newton's method
+  /// did not come to an end.
   std::string outcome;
   /// Of a level `left`: the state is an equilibrium, but not the one that the load leads to from
   /// rest: on the way there a step back does not lead to the state before. Nothing: no such step

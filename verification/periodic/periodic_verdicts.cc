@@ -53,14 +53,6 @@ std::vector<PathRows> paths_of(const std::vector<StabilityRow> &rows)
   return paths;
 }
 
-/// What was asked nowhere says nothing.
-Verdict open_without(const int n_asked, Verdict verdict)
-{
-  if (n_asked == 0)
-    verdict.outcome = Outcome::inconclusive;
-  return verdict;
-}
-
 Verdict verdict_on_sides(const PathRows &path)
 {
   double widest = 0.;

@@ -78,6 +78,10 @@ int make(const CellVariant &variant)
           {
             const std::string file = make_cell(variant);
             std::cout << "Made " << file << ", with its .geo and .msh\n";
+            for (const std::string &setting : variant.settings)
+              if (setting.rfind("yarn_width", 0) == 0)
+                std::cout << "Its materials are still those of the shipped width of a yarn: "
+                          << file << " says what gives those of this one.\n";
             // One rank alone: the others do not know the file's name.
             if (homogenization::has_errors(tell_findings(file).findings))
               status = exit_status::bad_input;

@@ -132,6 +132,12 @@ std::string with_mesh(const std::string &prm, const std::string &name, const Cel
   for (const Setting &setting : settings)
     note += " " + setting.parameter.name + " = " + number_text(setting.value) + ";";
   note.back() = '.';
+  for (const Setting &setting : settings)
+    if (setting.parameter.name == "yarn_width" &&
+        variant.cell.find("straight") == std::string::npos)
+      note += "\n# Its materials are those of the shipped width: `meshes/cells/weave.py " +
+              variant.cell + " --cover " + number_text(setting.value) +
+              "` gives the lines of this one.";
   if (settings.empty())
     note = "# A copy of the shipped cell " + variant.cell + ", made by homespun.";
   std::istringstream input(prm);

@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 namespace homespun::verification
 {
@@ -25,8 +27,9 @@ void add_commands(CommandLine &line)
 {
   line.app.require_subcommand(1);
   line.app.footer(
-    "Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where "
-    "it had to; 1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of "
+    "Exit status, the worst in this order: 5 a fault of homespun itself; 2 bad input; 3 a solver "
+    "did not converge where\nit had to; 1 a claim failed; 4 a claim is open; 0 all claims hold. "
+    "Claims are of "
     "the program, of the input, or of the method.\n`homespun COMMAND --help` teaches a "
     "command; `mpirun -n N homespun ...` works for every command that solves.");
   AllCommands::add_to(line);
@@ -74,6 +77,15 @@ const Action &chosen(const CommandLine &line, const Program &program)
     program.before_solving();
   return line.solve;
 }
+
+/// What may have happened to this rank alone, for which the others would wait without end.
+int ended_alone(const std::string &why, const int status)
+{
+  std::cerr << "homespun: " << why << std::endl;
+  if (n_ranks_of(MPI_COMM_WORLD) > 1)
+    MPI_Abort(MPI_COMM_WORLD, status);
+  return status;
+}
 } // namespace
 
 bool is_launched()
@@ -110,6 +122,19 @@ int guarded(const Action &action, const bool tells)
     if (tells)
       std::cerr << "homespun: " << failure.what() << "\n";
     return exit_status::not_converged;
+  }
+  catch (const std::bad_alloc &)
+  {
+    return ended_alone("the memory of this machine does not suffice; expected a coarser mesh or "
+                       "fewer cells",
+                       exit_status::bad_input);
+  }
+  catch (const std::exception &fault)
+  {
+    return ended_alone(std::string("a fault of homespun itself, or numbers beyond its arithmetic; "
+                                   "please report it with the command and its input: ") +
+                         fault.what(),
+                       exit_status::program_fault);
   }
 }
 

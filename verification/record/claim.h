@@ -55,6 +55,9 @@ Verdict judged(const std::string &id, const Words &words, Outcome outcome, doubl
 /// has no text of a limit, it is "<= {limit}".
 Verdict at_most(const std::string &id, Words words, double value, double limit);
 
+/// A verdict that is open where nothing was asked: that says nothing.
+Verdict open_without(int n_asked, Verdict verdict);
+
 /// A claim that the inputs of a study ask for, whatever its results are.
 struct OwedClaim
 {

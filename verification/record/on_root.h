@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include <exception>
+#include <stdexcept>
 #include <vector>
 
 namespace homespun::verification
@@ -39,7 +40,7 @@ inline unsigned int n_ranks_of(const MPI_Comm communicator)
 
 /// Runs `work` on the first rank, or on the only process of a program that has not started MPI.
 /// All ranks must call this; where the work throws, all throw: the first rank what it caught, the
-/// others the same kind (NotConverged, else BadInput).
+/// others the same kind (NotConverged, a fault of the program's own, else BadInput).
 template <typename Work>
 void on_root(const MPI_Comm communicator, Work &&work)
 {
@@ -47,7 +48,8 @@ void on_root(const MPI_Comm communicator, Work &&work)
   {
     good,
     bad_input,
-    not_converged
+    not_converged,
+    own_fault
   };
   int status = good;
   std::exception_ptr failure;
@@ -61,6 +63,11 @@ void on_root(const MPI_Comm communicator, Work &&work)
       status  = not_converged;
       failure = std::current_exception();
     }
+    catch (const std::logic_error &)
+    {
+      status  = own_fault;
+      failure = std::current_exception();
+    }
     catch (...)
     {
       status  = bad_input;
@@ -72,6 +79,8 @@ void on_root(const MPI_Comm communicator, Work &&work)
     std::rethrow_exception(failure);
   if (status == not_converged)
     throw meshes::NotConverged("the first rank did not converge", {});
+  if (status == own_fault)
+    throw std::logic_error("the first rank failed");
   if (status == bad_input)
     throw meshes::BadInput("the first rank failed");
 }

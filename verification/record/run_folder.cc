@@ -115,6 +115,18 @@ std::vector<std::string> foreign_files(const std::string &folder,
   return foreign;
 }
 
+/// run.json of the runs that have a folder of their own in a folder; `homespun verify` alone makes
+/// such runs itself.
+std::vector<std::string> runs_within(const std::string &folder, const ordered_json &earlier)
+{
+  std::vector<std::string> runs;
+  if (earlier.value("command", "") != "verify")
+    for (const auto &entry : fs::recursive_directory_iterator(folder))
+      if (entry.path().filename() == "run.json" && entry.path().parent_path() != fs::path(folder))
+        runs.push_back(fs::relative(entry.path(), folder).string());
+  return runs;
+}
+
 /// Seconds of work that a folder holds.
 double work_in(const std::string &folder, const ordered_json &earlier)
 {
@@ -237,9 +249,11 @@ RunFolder::RunFolder(std::string path_of_folder, const RunDescription &descripti
           what + ", " + text_of_duration(work) +
           " of work; expected an empty folder or the same run: --overwrite removes it, another "
           "--output keeps both");
-      if (!foreign.empty())
+      std::vector<std::string> others = runs_within(path, *found);
+      others.insert(others.end(), foreign.begin(), foreign.end());
+      if (!others.empty())
         throw BadInput(
-          path + ": holds " + foreign.front() +
+          path + ": holds " + others.front() +
           ", which the run there did not write; expected nothing of others in a folder that is "
           "begun anew: move it away, or choose another --output");
       remove_all_in(path);
@@ -328,6 +342,13 @@ void list_report(const std::string &path)
       files[file] = description;
   (*found)["files"] = files;
   write_json(path + "/run.json", *found);
+}
+
+bool lies_in(const std::string &path, const std::string &folder)
+{
+  const fs::path inside =
+    fs::weakly_canonical(path).lexically_relative(fs::weakly_canonical(folder));
+  return !inside.empty() && *inside.begin() != "..";
 }
 
 std::string default_folder(const std::string &command, const std::vector<std::string> &names)

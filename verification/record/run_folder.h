@@ -79,6 +79,10 @@ nlohmann::ordered_json finished_run(const std::string &path);
 /// results stays. Does nothing where the folder holds no run.
 void list_report(const std::string &path);
 
+/// Whether a file or folder lies in a folder or is it, links followed: what a run that begins there
+/// would delete.
+bool lies_in(const std::string &path, const std::string &folder);
+
 /// The name of a place of the command's own: out/NAMES/COMMAND.
 /// @param command as the folder has it: with -quick where the sizes are small
 /// @param names of the cells or of the scene, joined by + up to three

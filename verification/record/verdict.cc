@@ -7,9 +7,9 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr int worst_first[] = {exit_status::bad_input, exit_status::not_converged,
-                               exit_status::claim_failed, exit_status::claim_open,
-                               exit_status::good};
+constexpr int worst_first[] = {exit_status::program_fault, exit_status::bad_input,
+                               exit_status::not_converged, exit_status::claim_failed,
+                               exit_status::claim_open,    exit_status::good};
 
 constexpr int worse_of(const int one, const int other)
 {

@@ -69,10 +69,11 @@ constexpr int claim_failed  = 1;
 constexpr int bad_input     = 2;
 constexpr int not_converged = 3;
 constexpr int claim_open    = 4;
+constexpr int program_fault = 5;
 } // namespace exit_status
 
-/// The worse of two exit statuses, in this order: bad input, a solver that did not converge, a
-/// claim that failed, a claim that is open, good.
+/// The worse of two exit statuses, in this order: a fault of homespun itself, bad input, a solver
+/// that did not converge, a claim that failed, a claim that is open, good.
 int worse(int one, int other);
 
 /// What verdicts amount to: claim_failed, claim_open or good.

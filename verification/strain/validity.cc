@@ -73,17 +73,29 @@ struct Level
 
 /// Beyond the first loss of ellipticity what is compared is one equilibrium of its mesh, and a
 /// small error says nothing: the range ends there.
-void end_at_loss(ValidityRow &row)
+/// @param smallest strain of the ladder
+void end_at_loss(ValidityRow &row, const double smallest)
 {
-  if (!std::isfinite(row.elliptic_up_to) || row.relation == "-" ||
-      !(row.elliptic_up_to < row.largest))
+  if (!std::isfinite(row.elliptic_up_to) || row.relation == "-")
     return;
+  if (row.upper > row.elliptic_up_to)
+    row.upper = row.elliptic_up_to;
+  if (!(row.elliptic_up_to < row.largest))
+    return;
+  if (row.elliptic_up_to < smallest)
+  {
+    row.relation = "-";
+    row.largest = row.lower = row.upper = ValidityRow::none;
+    row.note = row.reference + " loses ellipticity at " + percent_text(row.elliptic_up_to) +
+               ", before the smallest strain of the study";
+    return;
+  }
   row.note +=
     std::string(row.note.empty() ? "" : "; ") + "the range ends where " + row.reference +
     " loses ellipticity in reference or coarse cloth; the error alone would keep the limit " +
     (row.relation == ">" ? "at every level, to " : "to ") + percent_text(row.largest);
   row.relation = "=";
-  for (double *const strain : {&row.largest, &row.lower, &row.upper})
+  for (double *const strain : {&row.largest, &row.lower})
     if (*strain > row.elliptic_up_to) // what is not known stays so
       *strain = row.elliptic_up_to;
 }
@@ -92,15 +104,73 @@ void end_at_loss(ValidityRow &row)
 /// of.
 std::vector<StrainRow> with_bases(const std::vector<StrainRow> &rows)
 {
-  std::vector<StrainRow> all = rows;
+  std::vector<StrainRow> all = rows, without;
   for (const StrainRow &row : rows)
     if (row.is_reached() && row.method == main_method(rows, row))
-      if (const StrainRow *const base = base_of(rows, row); base != nullptr)
-      {
-        all.push_back(*base);
-        all.back().method = base_method;
-      }
+    {
+      const StrainRow *const base = base_of(rows, row);
+      (base != nullptr ? all : without).push_back(base != nullptr ? *base : row);
+      (base != nullptr ? all : without).back().method = base_method;
+    }
+  // A level at which no base has an equilibrium ends the range of one that has it elsewhere.
+  for (StrainRow &row : without)
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const StrainRow &other)
+                    { return is_of_case(other, row) && other.method == base_method; }))
+    {
+      row.mean = StrainRow::none;
+      all.push_back(row);
+    }
   return all;
+}
+
+/// Of loads that no judged method came to at any level, one row for each method that is judged
+/// under another load.
+std::vector<StrainRow> without_any_level(const std::vector<StrainRow> &rows,
+                                         const std::vector<StrainRow> &cases)
+{
+  std::vector<StrainRow> missing;
+  const auto is_in = [](const std::vector<StrainRow> &some, const StrainRow &row)
+  {
+    return std::any_of(some.begin(), some.end(),
+                       [&](const StrainRow &one) { return is_of_case(one, row); });
+  };
+  for (const StrainRow &row : rows)
+  {
+    if (row.is_reached() || is_in(cases, row) || is_in(missing, row))
+      continue;
+    std::vector<std::string> methods;
+    for (const StrainRow &one : cases)
+      if (one.cell == row.cell && one.reference == row.reference &&
+          std::find(methods.begin(), methods.end(), one.method) == methods.end())
+        methods.push_back(one.method);
+    if (methods.empty())
+      methods.emplace_back("localized");
+    for (const std::string &method : methods)
+    {
+      missing.push_back(row);
+      missing.back().method = method;
+    }
+  }
+  return missing;
+}
+
+/// Without any level there is no range.
+ValidityRow row_of_none(const StrainRow &one, const std::string &measure, const double limit,
+                        const double first_unreached)
+{
+  return {one.cell,
+          one.load,
+          one.reference,
+          one.method,
+          measure,
+          limit,
+          "-",
+          ValidityRow::none,
+          ValidityRow::none,
+          ValidityRow::none,
+          "no equilibrium of reference or coarse cloth was found at strain " +
+            short_text(first_unreached) + ", the smallest"};
 }
 
 ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit,
@@ -124,13 +194,12 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
     note = "at strain " + short_text(strains.front()) + " the error is already " +
            percent_text(errors.front()) + " of the " + measure;
   else if (low.relation == '-')
-    note =
-      "not resolved: with the reference's error bar the limit is exceeded at the smallest strain";
+    note = "not resolved: with its error bar the error exceeds the limit at the smallest strain";
   else if (best.relation == '=' && high.relation == '>')
     note = "upper end open: without the error bar the limit is kept at every level";
   if (std::any_of(levels.begin(), levels.end(),
                   [](const Level &level) { return !std::isfinite(level.bar); }))
-    note += std::string(note.empty() ? "" : "; ") + "error bar of the reference not known";
+    note += std::string(note.empty() ? "" : "; ") + "the error bar is not known at every level";
   const auto shown = [](const Crossing &crossed)
   { return crossed.relation == '-' ? ValidityRow::none : crossed.strain; };
   return {one.cell,
@@ -164,6 +233,8 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
                      [&](const StrainRow &known)
                      { return is_of_case(known, row) && known.method == row.method; }))
       cases.push_back(row);
+  for (const StrainRow &one : without_any_level(given, cases))
+    cases.push_back(one);
   struct Measure
   {
     const char *name;
@@ -197,13 +268,16 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
         if (const double error = row.*(measure.error);
             std::isfinite(error) && row.strain < first_unreached)
           // The bar in m has the unit of the measure by the row's own ratio.
-          levels.push_back(
-            {row.strain, error, row.mean > 0. ? row.uncertainty * error / row.mean : 0.});
-      if (levels.empty())
+          levels.push_back({row.strain, error, row.mean > 0. ? row.bar * error / row.mean : 0.});
+      const bool has_measure =
+        std::any_of(of_case.begin(), of_case.end(),
+                    [&](const StrainRow &row) { return std::isfinite(row.*(measure.error)); });
+      if (levels.empty() && !of_case.empty() && !has_measure)
         continue; // a sheet whose reference does not fluctuate has no such measure
       for (const double limit : measure.limits)
       {
-        ValidityRow row = row_of(one, measure.name, limit, levels);
+        ValidityRow row = levels.empty() ? row_of_none(one, measure.name, limit, first_unreached)
+                                         : row_of(one, measure.name, limit, levels);
         if (row.relation == ">" && std::isfinite(first_unreached))
           row.note += std::string(row.note.empty() ? "" : "; ") +
                       "no equilibrium of reference or coarse cloth was found at strain " +
@@ -212,7 +286,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
         if (const auto known = least_radius_of_cell.find(row.cell);
             known != least_radius_of_cell.end())
           row.least_radius = known->second;
-        end_at_loss(row);
+        end_at_loss(row, levels.empty() ? 0. : levels.front().strain);
         rows.push_back(row);
       }
     }

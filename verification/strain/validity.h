@@ -43,7 +43,8 @@ constexpr const char *base_method = "base";
 /// (method/method.h) and its base, every reference, limits of 1, 5 and 10 % of the mean fluctuation
 /// of the reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder,
 /// and the first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the
-/// range: beyond it the reference is one equilibrium of its mesh.
+/// range: beyond it the reference is one equilibrium of its mesh. Its ends are those with the bar
+/// of the error itself. Of a load without any level there are rows that say so.
 /// @param levels rows of levels.csv, for the strain of the first loss
 /// @param least_radius_of_cell from which on D^H holds, of each cell of which it is known [m]
 std::vector<ValidityRow>

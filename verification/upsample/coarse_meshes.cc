@@ -3,25 +3,11 @@
 
 #include "meshes/files/obj_file.h"
 #include "meshes/plain/errors.h"
-
-#include <filesystem>
+#include "verification/record/run_folder.h"
 
 namespace homespun::verification
 {
-namespace fs = std::filesystem;
 using meshes::Polygons;
-
-namespace
-{
-/// Whether a file lies in a folder, links followed.
-bool lies_in(const std::string &file, const std::string &folder)
-{
-  const fs::path inside =
-    fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
-  return !inside.empty() && *inside.begin() != "..";
-}
-
-} // namespace
 
 Polygons read_in_metres(const std::string &file, const UpsampleOptions &options)
 {

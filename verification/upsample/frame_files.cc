@@ -2,11 +2,13 @@
 #include "verification/upsample/frame_files.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include <glob.h>
@@ -115,5 +117,23 @@ std::string fault_of_frame(const meshes::Polygons &frame, const std::string &nam
       return name + ": face " + std::to_string(f) + " has the vertices " + text_of(frame.faces[f]) +
              " (from 0); expected " + text_of(rest.faces[f]) + ", those of " + rest_name + remedy;
   return "";
+}
+
+std::string note_on_place(const double farthest, const double side)
+{
+  const double apart = farthest * std::numeric_limits<float>::epsilon();
+  if (!(apart > 1e-4 * side))
+    return "";
+  return "frames: the cloth is up to " + short_text(farthest) +
+         " m from the origin, where single precision tells places " + short_text(apart) +
+         " m apart, " + percent_text(apart / side) + " of a cell's side: move it to the origin";
+}
+
+std::string note_on_keywords(const std::set<std::string> &passed_over)
+{
+  std::string keywords;
+  for (const std::string &word : passed_over)
+    keywords += (keywords.empty() ? "frames: lines of ARCSim were passed over: " : ", ") + word;
+  return keywords;
 }
 } // namespace homespun::verification

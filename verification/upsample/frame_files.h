@@ -5,6 +5,7 @@
 
 #include "meshes/files/polygons.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,4 +31,12 @@ std::vector<FrameFile> frames_of(const std::vector<std::string> &files_and_patte
 /// @param name, rest_name files, for the message
 std::string fault_of_frame(const meshes::Polygons &frame, const std::string &name,
                            const meshes::Polygons &rest, const std::string &rest_name);
+
+/// A note where single precision, in which positions are up-sampled, is a ten-thousandth of a
+/// cell's side or more; else empty.
+/// @param farthest coordinate [m]
+std::string note_on_place(double farthest, double side);
+
+/// A note on lines of frames that were not read; empty where there are none.
+std::string note_on_keywords(const std::set<std::string> &passed_over);
 } // namespace homespun::verification

@@ -133,11 +133,10 @@ public:
                       " on 99 % of the area" + beyond_text(row));
     }
     lines.push_back(validity_text());
-    std::string keywords;
-    for (const std::string &word : passed_over)
-      keywords += (keywords.empty() ? "" : ", ") + word;
-    if (!keywords.empty())
-      lines.push_back("frames: lines of ARCSim were passed over: " + keywords);
+    for (const std::string &note :
+         {note_on_place(farthest, std::sqrt(cell.lattice.area())), note_on_keywords(passed_over)})
+      if (!note.empty())
+        lines.push_back(note);
     return lines;
   }
 
@@ -236,6 +235,7 @@ private:
     Polygons mesh;
     seconds["read"].push_back(seconds_of([&]() { mesh = read_in_metres(frame.file, options); }));
     passed_over.insert(mesh.passed_over.begin(), mesh.passed_over.end());
+    farthest = std::max(farthest, mesh.positions.cwiseAbs().maxCoeff());
     // The file may have been written anew since it was checked.
     if (const std::string fault = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
         !fault.empty())
@@ -376,6 +376,7 @@ private:
   const RestMesh rest;
   const std::vector<FrameFile> frames; ///< of this call
   std::set<std::string> passed_over;   ///< in them
+  double farthest = 0.;                ///< coordinate of the frames [m]
   std::vector<std::string> names;      ///< of all frames in the folder, once this call's are made
   std::optional<ValidStrain> valid;
   std::unique_ptr<UpsampledCloth> fine;

@@ -8,6 +8,8 @@
 #include "verification/record/run_folder.h"
 #include "verification/record/validity_table.h"
 
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -38,15 +40,17 @@ std::string joined(const std::set<std::string> &names)
   return text.empty() ? "none" : text;
 }
 
-bool is_shear(const std::string &load)
-{
-  return load.find("shear") != std::string::npos || load.find("12") != std::string::npos;
-}
-
 /// The largest principal strain of a load at its strain.
 double principal_strain(const std::string &load, const double strain)
 {
-  return is_shear(load) ? std::sqrt(1. + 0.25 * strain * strain) + 0.5 * strain - 1. : strain;
+  Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
+  if (load == "periodic-all")
+    F += strain * (Eigen::Matrix2d() << 1., 1., 0., 0.5).finished();
+  else if (load.find("shear") != std::string::npos || load.find("12") != std::string::npos)
+    F(0, 1) = strain;
+  else
+    return strain;
+  return F.jacobiSvd().singularValues()(0) - 1.;
 }
 
 std::string cell_of(const std::vector<ValidityRow> &rows, const std::string &file,

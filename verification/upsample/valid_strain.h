@@ -14,8 +14,9 @@ namespace homespun::verification
 /// coarse cloth and reference share, biot or yarn, stayed within a part
 /// of the cell side at every load that was tried.
 ///
-/// A load's strain s is the largest principal strain itself, but for shear, where it is
-/// sqrt(1 + s²/4) + s/2 − 1.
+/// Of a load it is the largest singular value of F minus 1: the strain s itself, for shear
+/// sqrt(1 + s²/4) + s/2 − 1, for `periodic-all` that of F = I + s [1 1; 0 ½]. A strip of an oblique
+/// lattice counts as one of a rectangular lattice.
 struct ValidStrain
 {
   double strain = 0.;   ///< 0 where a load exceeds the limit at its smallest level already [-]

@@ -158,6 +158,8 @@ TEST(exact_unit_cell, layers_take_the_place_of_moduli_and_thickness)
   refused("hard: 6e-4 1e6",
           "key `Layers`: found `hard: 6e-4 1e6`; expected `group: thickness E nu");
   refused("6e-4 1e6 0.3", "key `Layers`: found `6e-4 1e6 0.3`");
+  refused("hard: 6e-4 1e6 0.3, 1e-4 1e7 0.3, hard: 6e-4 1e6 0.3",
+          "key `Layers`: group `hard` is given twice");
   refused("hard: 6e-4 1e6 0.3, 4e-4 -1.4e7 0.4", "phase `hard`, layer `2` has Young's modulus");
   refused("hart: 6e-4 1e6 0.3", "key `Layers` names the group `hart`");
   refused("hard: 6e-4 1e6 0.3, soft: 6e-4 1e6 0.3",

@@ -389,3 +389,10 @@ TEST(tripwire_edge_layers, an_edge_that_is_no_lattice_line_is_named)
     EXPECT_NE(std::string(refusal.what()).find("no lattice lines"), std::string::npos);
   }
 }
+
+TEST(tripwire_edge_layers, a_cell_whose_outline_cuts_holes_has_no_edges)
+{
+  UnitCell cell           = lopsided();
+  cell.lattice.cuts_holes = true;
+  EXPECT_THROW(edges_with(cell, 1), meshes::BadInput);
+}

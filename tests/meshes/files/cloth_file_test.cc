@@ -169,6 +169,23 @@ TEST(exact_obj_file, layers_that_share_vt_are_panels_of_their_own)
   EXPECT_EQ(cloth.rest.n_vertices(), 8);
 }
 
+TEST(exact_obj_file, a_vt_for_each_corner_of_a_face_makes_no_panels)
+{
+  const TemporaryFile file("wedges.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                         "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 0\nvt 1 1\nvt 0 1\n"
+                                         "f 1/1 2/2 3/3\nf 1/4 3/5 4/6\n");
+  const ClothMesh cloth = read_cloth(file.path);
+  EXPECT_EQ(cloth.rest.n_vertices(), 4);
+  EXPECT_EQ(cloth.rest.triangles.row(1), Eigen::RowVector3i(0, 2, 3));
+}
+
+TEST(exact_obj_file, a_comment_ends_with_its_line)
+{
+  const TemporaryFile file("comment.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                                          "# from D:\\cloth\\\nf 1/1 2/2 3/3\n");
+  EXPECT_EQ(read_cloth(file.path).n_triangles(), 1);
+}
+
 TEST(tripwire_obj_file, faults_of_lines_are_named_with_file_and_line)
 {
   expect_fault(faults_of_action([] { read_cloth("/nowhere/cloth.obj"); }),

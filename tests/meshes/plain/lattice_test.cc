@@ -62,6 +62,38 @@ TEST(exact_lattice, the_frame_of_a_parallelogram_and_its_outline_give_back_its_l
   }
 }
 
+TEST(exact_lattice, the_first_vector_of_a_frame_is_nearest_to_the_x_axis_however_the_cell_is_turned)
+{
+  for (const double degrees : {-44., -1., -1e-5, 0., 1e-5, 1., 44.})
+  {
+    const double c = std::cos(degrees * M_PI / 180.), s = std::sin(degrees * M_PI / 180.);
+    Lattice lattice;
+    lattice.vectors << c, s, -s, c;
+    const TriangleMesh mesh = tests::parallelogram(lattice, 3, 4);
+    EXPECT_LT(
+      (frames_of(mesh, 1e-9).front().lattice.vectors - lattice.vectors).cwiseAbs().maxCoeff(),
+      1e-14)
+      << degrees;
+  }
+}
+
+TEST(exact_lattice, a_cell_is_anchored_where_both_vectors_begin_whatever_they_are)
+{
+  const TriangleMesh mesh = tests::parallelogram(tests::square_lattice(1.), 3, 4);
+  for (const auto &[vectors, corner] :
+       {std::pair<Eigen::Matrix2d, Eigen::RowVector2d>(
+          (Eigen::Matrix2d() << 1., 0., 0., 1.).finished(), {0., 0.}),
+        {(Eigen::Matrix2d() << -1., 0., 0., -1.).finished(), {1., 1.}},
+        {(Eigen::Matrix2d() << 0., 1., -1., 0.).finished(), {1., 0.}}})
+  {
+    const Lattice lattice = {vectors};
+    EXPECT_EQ(mesh.vertices.row(anchor_vertex(mesh, lattice)), corner);
+    const Sheet sheet = tile(mesh, lattice, 2, 3);
+    EXPECT_EQ(sheet.origin, corner);
+    EXPECT_EQ(sheet.mesh.n_triangles(), 6 * mesh.n_triangles());
+  }
+}
+
 TEST(exact_lattice, the_outline_of_a_plus_of_five_squares_fills_the_plane_in_two_ways)
 {
   // The cross pentomino, which is not the square that frames it.

@@ -73,4 +73,6 @@ TEST(tripwire_sheet, a_cell_with_another_outline_is_refused)
   cell.vertices(14, 0) += 0.1;
   ASSERT_TRUE(periodicity_faults(cell, lattice, "cell").empty());
   EXPECT_THROW(tile(cell, lattice, 2, 2), BadInput);
+  EXPECT_FALSE(makes_sheets(cell, lattice));
+  EXPECT_TRUE(makes_sheets(tests::parallelogram(lattice, 4, 4), lattice));
 }

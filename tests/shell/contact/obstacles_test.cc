@@ -106,6 +106,36 @@ TEST(bound_obstacles, a_vertex_comes_to_rest_on_a_plane_from_any_height_at_any_s
       }
 }
 
+TEST(bound_obstacles, a_vertex_that_begins_in_the_skin_is_not_thrown_at_any_step)
+{
+  for (const double h : {1e-4, 1e-3, 1e-2})
+    for (const double height : {-0.002, 0., 0.0005})
+    {
+      Points points(one(0., 0., height));
+      const auto term = obstacle_term(floor_at(0.), points.masses, with_gravity());
+      double highest  = height;
+      for (int step = 0; step < static_cast<int>(0.3 / h); ++step)
+      {
+        points.step(*term, h);
+        highest = std::max(highest, points.x(0, 2));
+      }
+      // What a last step of the way out leaves of its speed rises no higher than it went.
+      EXPECT_LT(highest, 1e-3 + (1e-3 - height)) << h << ' ' << height;
+      EXPECT_NEAR(points.x(0, 2), 1e-3, 1e-5) << h << ' ' << height;
+    }
+}
+
+TEST(exact_obstacles, a_held_vertex_has_no_contact)
+{
+  const Vectors x = Vectors::Zero(2, 3);
+  const auto term = obstacle_term(floor_at(0.), Eigen::VectorXd::Constant(2, 1e-4), with_gravity());
+  const BlockMatrix matrix = tests::matrix_for(*term, 2, {true, false});
+  term->begin_step({x, x, 0., 0.01});
+  const Vectors gradient = tests::gradient_of(*term, x);
+  EXPECT_EQ(gradient.row(0).norm(), 0.);
+  EXPECT_LT(gradient(1, 2), 0.);
+}
+
 TEST(bound_obstacles, nothing_goes_through_a_thin_plate_at_five_metres_per_second_and_50_ms)
 {
   std::mt19937 generator(1);

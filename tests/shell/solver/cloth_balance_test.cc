@@ -105,6 +105,24 @@ TEST(exact_cloth, viscosity_alone_is_what_it_adds_to_the_membrane)
   EXPECT_LT(gradient_of(*alone, before).norm(), 1e-13 * expected.norm());
 }
 
+TEST(order_cloth, conserving_viscosity_is_the_implicit_one_but_for_the_square_of_the_change)
+{
+  const meshes::ClothMesh mesh = lying_sheet(5);
+  std::mt19937 generator(8);
+  const int n          = mesh.n_vertices();
+  const Vectors before = mesh.positions + 0.01 * random_matrix<Vectors>(generator, n, 3),
+                change = random_matrix<Vectors>(generator, n, 3);
+  const auto term      = viscosity_term(mesh, {anisotropic()}, 0.01);
+  term->begin_step({before, before, 0., 0.005});
+  const auto difference = [&](const double size)
+  {
+    const Vectors after    = before + size * change;
+    const Vectors implicit = gradient_of(*term, after);
+    return (discrete_gradient(*term, before, after) - implicit).norm() / implicit.norm();
+  };
+  EXPECT_NEAR(std::log2(difference(2e-5) / difference(1e-5)), 1., 0.1);
+}
+
 namespace
 {
 /// Sheets that spin and fly. The second one is a weave: its weak shear lets the spin become

@@ -2,6 +2,7 @@
 // What every term of a moving cloth is asked: its matrix, its Taylor remainders, its balance.
 #pragma once
 
+#include "shell/algebra/vertex_matrix.h"
 #include "shell/terms/term.h"
 #include "tests/shell/shell_cases.h"
 
@@ -29,6 +30,16 @@ inline shell::Vectors gradient_of(const shell::Term &term, const shell::Vectors 
 {
   shell::Vectors gradient = shell::Vectors::Zero(x.rows(), 3);
   term.add_gradient(x, gradient);
+  return gradient;
+}
+
+/// What a term does over a step of the conserving integrator.
+inline shell::Vectors discrete_gradient(const shell::Term &term, const shell::Vectors &before,
+                                        const shell::Vectors &after)
+{
+  shell::Vectors gradient = shell::Vectors::Zero(before.rows(), 3);
+  shell::VertexMatrix jacobian(std::vector<bool>(static_cast<std::size_t>(before.rows()), false));
+  term.add_discrete_gradient(before, after, gradient, jacobian);
   return gradient;
 }
 

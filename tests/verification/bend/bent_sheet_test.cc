@@ -177,7 +177,7 @@ TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_
   for (const char *load : {"roll", "pressure"})
   {
     const auto small   = distance_of_meshes(cell, load_of(load), 3),
-               carried = carried_bars(small, growth_in_linear_theory(2.)),
+               carried = carried_bars(small, growth_in_linear_theory(2.), cell.factor_of_bars()),
                large   = distance_of_meshes(cell, load_of(load), 6);
     for (std::size_t m = 0; m < large.size(); ++m)
     {
@@ -190,6 +190,21 @@ TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_
       EXPECT_NEAR(large[m]->normal / small[m]->normal, 1., 0.5) << load;
     }
   }
+}
+
+TEST(exact_bent_sheet, bars_of_two_meshes_know_how_slowly_strong_corners_converge)
+{
+  const auto factor_of = [](const double contrast)
+  {
+    const homogenization::UnitCell unit =
+      tests::cell_of(tests::square_lattice(side), 4, 4,
+                     {homogenization::isotropic("soft", 1e6, 0.3, 5e-4, 400.),
+                      homogenization::isotropic("hard", contrast * 1e6, 0.3, 5e-4, 400.)},
+                     [](const double f1, const double f2) { return (f1 < 0.5) == (f2 < 0.5); });
+    return CellTwice(unit).factor_of_bars();
+  };
+  EXPECT_EQ(factor_of(2.), 3.);
+  EXPECT_GT(factor_of(1000.), 6.);
 }
 
 TEST(tripwire_bent_sheet, a_term_of_the_wrong_sign_side_or_size_is_noticed)
@@ -229,4 +244,19 @@ TEST(tripwire_bent_sheet, a_term_of_the_wrong_sign_side_or_size_is_noticed)
   };
   EXPECT_GT(normal(-1.), 5. * normal(1.)) << "sign of w3";
   EXPECT_GT(normal(0.5), 2. * normal(1.)) << "half of w3";
+}
+
+TEST(invariant_bent_sheet, errors_do_not_know_how_vertices_are_numbered)
+{
+  const homogenization::UnitCell unit = three_stripes();
+  homogenization::UnitCell turned     = unit;
+  turned.mesh.vertices                = unit.mesh.vertices.colwise().reverse().eval();
+  turned.mesh.triangles = (unit.mesh.n_vertices() - 1 - unit.mesh.triangles.array()).matrix();
+  const auto here       = errors_of(BendingCell(unit), "cantilever-1", 3, 4),
+             there      = errors_of(BendingCell(turned), "cantilever-1", 3, 4);
+  for (std::size_t m = 0; m < here.size(); ++m)
+  {
+    EXPECT_NEAR(there[m].position / here[m].position, 1., 1e-6) << bending_methods[m];
+    EXPECT_NEAR(there[m].normal / here[m].normal, 1., 1e-6) << bending_methods[m];
+  }
 }

@@ -133,6 +133,29 @@ TEST(tripwire_bracket_checks, a_soft_direction_counts_as_much_as_a_stiff_one)
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, off, 0.), "Both codes agree"), Outcome::fail);
 }
 
+TEST(bound_assessed_cell, the_bar_of_a_cell_without_a_bracket_holds_its_stiffness)
+{
+  const UnitCell cell = inclusion();
+  homogenization::HomogenizationOptions finest;
+  finest.refine               = 3;
+  finest.solver               = homogenization::CellSolver::fastest;
+  const Eigen::Matrix3d limit = homogenization::homogenize(cell, finest, MPI_COMM_SELF).stiffness;
+  for (const unsigned int order : {1u, 2u})
+  {
+    homogenization::HomogenizationOptions options;
+    options.order         = order;
+    AssessedCell assessed = assess(cell, options, MPI_COMM_SELF);
+    add_estimate(cell, 1000000, MPI_COMM_SELF, assessed);
+    ASSERT_TRUE(assessed.uncertainty.has_value());
+    const Eigen::Matrix3d distance = (assessed.result.stiffness - limit).cwiseAbs();
+    for (int a = 0; a < 3; ++a)
+    {
+      EXPECT_LT(distance(a, a), (*assessed.uncertainty)(a, a)) << a << a << ", P" << order;
+      EXPECT_GT(distance(a, a), 0.2 * (*assessed.uncertainty)(a, a)) << a << a << ", P" << order;
+    }
+  }
+}
+
 TEST(exact_cell_checks, every_check_says_where_its_limit_comes_from)
 {
   const UnitCell cell   = inclusion();
@@ -141,7 +164,7 @@ TEST(exact_cell_checks, every_check_says_where_its_limit_comes_from)
   options.tolerance = 1e-3;
   add_bracket(
     cell, options, [](const std::string &) {}, assessed);
-  EXPECT_EQ(assessed.checks.size(), 12u);
+  EXPECT_EQ(assessed.checks.size(), 13u);
   for (const Verdict &check : assessed.checks)
   {
     EXPECT_FALSE(check.derivation.empty()) << check.claim;
@@ -212,6 +235,12 @@ TEST(bound_bracket_output, an_adaptive_bracket_replaces_checks_and_chi_together)
   }
   EXPECT_EQ(assessed.checks[0].value, gap / size);
   EXPECT_GT(energy_difference(coarse.stiffness, assessed.result.stiffness), 1e-4);
+  // And strains of triangles are those of the new chi, which leaves their mean alone.
+  const Eigen::VectorXd areas   = meshes::signed_areas(cell.mesh);
+  const Eigen::RowVectorXd mean = areas.transpose() * assessed.result.strains / areas.sum();
+  EXPECT_LT((mean.reshaped(3, 3) - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_GT((assessed.result.strains - coarse.strains).norm(), 0.01);
+  EXPECT_FALSE(edges_beside(cell, assessed).edges.has_value());
 }
 
 TEST(bound_bracket_output, printed_stiffness_and_moduli_hold_those_of_a_far_narrower_bracket)

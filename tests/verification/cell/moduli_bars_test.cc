@@ -59,6 +59,9 @@ TEST(exact_moduli_bars, the_worst_compliance_within_its_bars_is_as_far_as_the_ba
   }
   for (std::size_t k = 0; k < 5; ++k)
     EXPECT_NEAR(said[k], farthest[k], 1e-12 * std::abs(middle[k])) << k;
+  const Verdict check = check_of_moduli("C^H", S, bars);
+  EXPECT_NEAR(check.value, 1., 1e-9);
+  EXPECT_EQ(check.outcome, Outcome::pass);
 }
 
 TEST(bound_moduli_bars, every_stiffness_between_two_sides_has_its_moduli_within_the_bars)

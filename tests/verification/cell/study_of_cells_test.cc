@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A study of cells from end to end, as short as one can be: what of it is its own, and what the
 // frame does for it.
+#include "homogenization/lint/cell_reading.h"
+#include "verification/cell/study_inputs.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/record/table.h"
 
@@ -103,4 +105,14 @@ TEST(exact_study_of_cells, a_new_study_is_its_table_and_its_claims_and_is_taken_
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t k = 0; k < first.size(); ++k)
     EXPECT_EQ(first[k].value, second[k].value) << first[k].claim;
+}
+
+TEST(exact_fingerprint, layers_of_another_order_are_another_cell)
+{
+  homogenization::UnitCell one = homogenization::read_unit_cell(std::string(CELLS) + "layered.prm");
+  const std::string before     = fingerprint(one);
+  EXPECT_EQ(fingerprint(one), before);
+  // The same c, thickness and density: what bends about a surface of its own.
+  one.phases.front().plate = homogenization::Plate{2e6, 0.3, 2e-4};
+  EXPECT_NE(fingerprint(one), before);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a convergence study leaves on the disk is what it takes up; and its sizes can decide what it
 // claims.
+#include "tests/homogenization/cell/cells.h"
 #include "verification/converge/converge_cases.h"
 
 #include <gtest/gtest.h>
@@ -138,4 +139,19 @@ TEST(exact_convergence_sizes, every_ladder_has_the_levels_that_its_order_needs)
           sizes.strains.size(), sizes.time_steps.size()})
       EXPECT_GE(n, fewest_levels) << (quick ? "quick" : "full");
   }
+}
+
+TEST(exact_adaptive_cases, what_so_few_dofs_cannot_decide_is_open_and_not_silent)
+{
+  const homogenization::UnitCell cell =
+    tests::cell_of(tests::square_lattice(0.01), 4, 4,
+                   {homogenization::isotropic("soft", 1e6, 0.3, 5e-4, 400.),
+                    homogenization::isotropic("hard", 1e7, 0.3, 5e-4, 400.)},
+                   [](const double f1, const double f2) { return (f1 < 0.5) == (f2 < 0.5); });
+  ConvergenceSizes sizes         = convergence_sizes(true);
+  sizes.adaptive_dofs            = 100;
+  const ConvergenceResult result = adaptive_cases(cell, sizes, MPI_COMM_SELF).front().run();
+  ASSERT_EQ(result.verdicts.size(), 2u); // P1 and P2
+  for (const Verdict &verdict : result.verdicts)
+    EXPECT_EQ(verdict.outcome, Outcome::inconclusive) << verdict.claim;
 }

@@ -44,10 +44,12 @@ TEST(order_drape_error_bar, the_part_of_the_time_step_is_of_first_order)
   // The bar holds what three halvings change together.
   EXPECT_GT(coarse.of_time_step_at(2, coarse.fluctuation[2]),
             coarse.halved_step[2] + middle.halved_step[2] + fine.halved_step[2]);
-  EXPECT_GT(fine.of_mesh[2], 0.);
-  EXPECT_LT(fine.of_mesh[2], fine.fluctuation[2]);
+  const double of_mesh = fine.of_mesh_at(2, fine.fluctuation[2]);
+  EXPECT_EQ(fine.meshes[2].safety(), 1.25);
+  EXPECT_GT(of_mesh, 0.);
+  EXPECT_LT(of_mesh, fine.fluctuation[2]);
   // What it is carried over with.
-  EXPECT_DOUBLE_EQ(fine.of_mesh_at(2, 3. * fine.fluctuation[2]), 3. * fine.of_mesh[2]);
+  EXPECT_DOUBLE_EQ(fine.of_mesh_at(2, 3. * fine.fluctuation[2]), 3. * of_mesh);
   EXPECT_TRUE(std::isnan(fine.of_mesh_at(3, 1.)));
 }
 
@@ -56,5 +58,17 @@ TEST(exact_drape_error_bar, equilibria_have_no_time_step)
   const DrapeErrorBar bar = bar_of(0.01, TimeIntegration::equilibria);
   ASSERT_EQ(bar.halved_step.size(), 3u);
   EXPECT_EQ(bar.of_time_step_at(2, bar.fluctuation[2]), 0.);
-  EXPECT_GT(bar.of_mesh[2], 0.);
+  EXPECT_GT(bar.of_mesh_at(2, bar.fluctuation[2]), 0.);
+}
+
+TEST(bound_drape_error_bar, a_frame_in_which_coarse_and_fine_cloth_cross_keeps_its_bar)
+{
+  DrapeErrorBar bar;
+  bar.order       = 1.;
+  bar.meshes      = {{0.2, 0.3, 0.1, true}, {2e-3, 3e-3, 1e-3, true}};
+  bar.halved_step = {0.1, 1e-3};
+  bar.fluctuation = {1., 0.01};
+  EXPECT_GE(bar.of_time_step_at(1, 1.), 0.25);
+  EXPECT_EQ(bar.of_time_step_at(1, 1.), bar.of_time_step_at(0, 1.));
+  EXPECT_EQ(bar.of_mesh_at(1, 2.), 2. * bar.of_mesh_at(0, 1.));
 }

@@ -140,3 +140,16 @@ TEST(exact_run_of_waves, the_shortest_waves_of_a_run_are_said_and_none_where_all
   EXPECT_NE(said.find("shorter than 8 of its sides in 3 of 4 frames"), std::string::npos) << said;
   EXPECT_NE(said.find("some 2.5 sides (2.5 cm) in frame 2"), std::string::npos) << said;
 }
+
+TEST(exact_drape_verdicts, a_run_without_localized_is_judged_by_its_last_method)
+{
+  std::vector<DrapeRow> rows = rows_of(1., 0.1, 0.01);
+  for (DrapeRow &row : rows)
+    if (row.method == "localized")
+      row.method = "full";
+  EXPECT_EQ(judged_method(rows, "cell"), "full");
+  EXPECT_EQ(outcomes_of(rows, 2.).size(), 3u);
+  rows.erase(rows.begin() + 3, rows.end()); // affine alone
+  EXPECT_EQ(judged_method(rows, "cell"), "affine");
+  EXPECT_EQ(outcomes_of(rows, 2.).size(), 2u);
+}

@@ -62,6 +62,7 @@ class Bend(InFolder):
         left_out = json.loads((self.folder / "out/study.json").read_text())["left_out"]
         self.assertTrue([one for one in left_out if "twist" in one["what"]
                          and "stretch" in one["why"]], left_out)
+        self.assertTrue(all(one["why"] for one in left_out), left_out)
 
     def test_of_one_material_nothing_is_claimed(self):
         cell = broken_cells_test.Cell()

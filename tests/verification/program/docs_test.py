@@ -133,6 +133,21 @@ class Commands(unittest.TestCase):
                                 path.read_text(encoding="utf-8"),
                                 f"{stored} is not what this program says; {AGAIN}")
 
+    def test_python_takes_for_text_what_is_text(self):
+        code = (ROOT / "python" / "package" / "results.py").read_text(encoding="utf-8")
+        named = set(re.search(r'^_TEXT = set\("""(.*?)"""', code, re.S | re.M).group(1).split())
+        schema = json.loads(pathlib.Path(os.environ["HOMESPUN_SCHEMA"]).read_text(encoding="utf-8"))
+        kinds = {}  # {column: {whether it is text: tables}}
+        for table, entry in schema.items():
+            if table.endswith(".csv"):
+                for column in entry["columns"]:
+                    is_text = column["domain"] in ("name", "text", "outcome")
+                    kinds.setdefault(column["name"], {}).setdefault(is_text, []).append(table[:-4])
+        wanted = {text for column, of in kinds.items() if True in of
+                  for text in ([f"{table}.{column}" for table in of[True]] if False in of
+                               else [column])}
+        self.assertEqual(named, wanted)
+
     def test_every_claim_of_the_program_is_in_claims_json_and_the_other_way_round(self):
         here = ROOT / "verification"
         claims = json.loads((here / "record" / "claims.json").read_text(encoding="utf-8"))

@@ -81,6 +81,25 @@ class BadScenes(SceneCase):
             with self.subTest(says):
                 self.assertIn(says, self.refused(self.scene(waist, garment=text), "cloth.obj"))
 
+    def test_keys_of_the_other_kind_of_cloth(self):
+        waist = {"Pins": "waist", "Placement": None}
+        for key, value in (("Centre", "0 0 3"), ("Sheet cells", "7 7"), ("Disturbance", "0.1")):
+            self.refused(self.scene({**waist, key: value}, garment=TRIANGLE),
+                         f"key `{key}` is of a sheet, and `Mesh` gives a garment")
+        self.refused(self.scene({"Rest coordinate unit": "0.01"}),
+                     "key `Rest coordinate unit` is of a garment")
+
+    def test_a_variant_that_the_cell_cannot_have_is_told_before_anything_moves(self):
+        text = (LAYERED.parent / "layered.prm").read_text(encoding="utf-8")
+        (self.folder / "layered.msh").write_bytes(LAYERED.with_suffix(".msh").read_bytes())
+        path = self.folder / "layered.prm"
+        path.write_text(re.sub(r"(Young's modulus\s*=).*", r"\1 1e6", text), encoding="utf-8")
+        result = run("drape", self.scene({"Cells": path}), "--quick", "--variants", "biot,yarn",
+                     "--no-report", "--output", self.folder / "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--variants yarn: C^H of layered", result.stderr)
+        self.assertNotIn("frame", result.stderr)
+
     def test_references_that_lack_a_term(self):
         self.refused(SCENES / "flag.prm", "has the term `wind`", "expected the reference `shell`",
                      options=["--references", "biot"])

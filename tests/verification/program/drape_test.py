@@ -59,6 +59,20 @@ class Scenes(SceneCase):
                           if not row["place"]], [0., 0.03])
         self.assertAlmostEqual(json.loads((output / "drape.json").read_text())["duration_s"], 0.03)
 
+    def test_the_parameters_are_those_that_were_used(self):
+        output = self.folder / "out"
+        result = run("drape", SCENES / "pull.prm", "--cells", 4, "--time-step", 0.02,
+                     "--duration", 0.12, "--no-frames", "--no-report", "--unit-cells", LAYERED,
+                     "--output", output)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = json.loads((output / "drape.json").read_text())
+        used = told["parameters"]
+        self.assertEqual([used[key] for key in ("Time step", "Duration", "Sheet cells", "Cells")],
+                         ["0.02", "0.12", "4 4", str(LAYERED)])
+        self.assertIn("with ways scaled from 20 20 cells", used["Handles"])
+        self.assertTrue(any("frames are 0.06 s apart" in note for note in told["notes"]),
+                        told["notes"])
+
     def test_energies_of_a_hanging_cloth_and_its_references_obey_clapeyron(self):
         # In equilibrium at small strain the weight has given twice what the cloth stores.
         output = self.folder / "out"

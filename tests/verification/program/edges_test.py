@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, LAYERED, InFolder, rows_of, run
+from cli import CELLS, LAYERED, THREE, InFolder, rows_of, run
 
 
 class Edges(InFolder):
@@ -54,6 +54,16 @@ class Edges(InFolder):
         for found, known in zip(summary["C"], answered_cells.laminate_stiffness()):
             for entry, answer in zip(found, known):
                 self.assertAlmostEqual(entry, answer, delta=1e-6)
+
+    def test_edges_that_would_not_belong_to_chi_are_left_out(self):
+        output = self.folder / "out"
+        result = run("homogenize", THREE, "--refine", "1", "--quiet", "--output", output)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        summary = json.loads((output / "homogenize.json").read_text())
+        self.assertFalse(summary["edges"]["stored"])
+        self.assertIn("belong to the chi of the mesh as given", summary["edges"]["why_not"])
+        with h5py.File(output / "cell.h5") as file:
+            self.assertNotIn("edges", file)
 
     def test_modes_that_would_take_longer_than_all_else_are_left_out_with_an_estimate(self):
         sys.path.insert(0, str(CELLS.parents[1] / "tests" / "benchmarks" / "pareto"))

@@ -3,16 +3,19 @@
 import importlib.util
 import itertools
 import json
+import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import types
 import unittest
 
 import h5py
 import numpy
 
+import broken_cells_test
 from cli import CELLS, rows_of, run
 from judge_case import JudgingFrames, JudgingLevels
 
@@ -21,6 +24,26 @@ NORMS = ("error_mean_m", "error_rms_m", "error_max_m", "error_mean_per_cell",
          "error_mean_per_fluctuation", "error_interior_m", "error_edge_m", "cells",
          "coarse_triangles", "fine_triangles", "reference_uncertainty_m",
          "reference_uncertainty_max_m", "reference_to_refined_m", "seconds_reference")
+
+
+class OfACellNumberedBackwards(JudgingLevels):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="homespun-")
+        cls.addClassCleanup(folder.cleanup)
+        cell = broken_cells_test.Cell()
+        cell.points.reverse()
+        cell.triangles = [[len(cell.points) - 1 - v for v in t] for t in cell.triangles]
+        cls.make("strain", cell.write(pathlib.Path(folder.name)), "--cells", "4", "--loads",
+                 "periodic-11", "--references", "biot", "--strains", "0.1", "--no-budget",
+                 "--no-runtime")
+        cls.kept = cls.study / "cell" / "positions"
+
+    def test_infinite_cloth_is_laid_on_its_reference_at_the_anchor(self):
+        level = "periodic-11-biot-0.1"
+        shifted = self.kept_positions(level) + [1e-6, -2e-6]
+        rows, _ = self.judged(self.write(f"{level}.npy", shifted))
+        self.assertLess(float(rows[level]["error_mean_m"]), 1e-15)
 
 
 class Judge(JudgingLevels):

@@ -88,6 +88,12 @@ class BadInput(Upsampling):
         shutil.copy(good, inside)
         self.assertIn("in.obj: lies in the folder of the results", self.upsample(inside, status=2))
         self.assertTrue(inside.exists())
+        cell = self.output / "cell.h5"
+        shutil.copy(self.cell, cell)
+        result = run("upsample", cell, "--rest", self.rest, good, "--output", self.output)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("cell.h5: lies in the folder of the results", result.stderr)
+        self.assertTrue(cell.exists())
 
     def test_an_older_cell_without_a_version_is_read(self):
         older = self.folder / "older.h5"

@@ -159,6 +159,17 @@ TEST_F(tripwire_run_folder, results_that_were_changed_after_their_run_are_refuse
   EXPECT_NE(refused(one, Earlier::keep_work).find("strain.csv: was changed"), std::string::npos);
 }
 
+TEST_F(tripwire_run_folder, runs_of_others_within_a_folder_stay)
+{
+  leave_run(one, 1.);
+  fs::create_directories(path + "/strain");
+  write(path + "/strain/run.json", "{}");
+  write(path + "/strain/strain.csv", "hours of work\n");
+  for (const Earlier earlier : {Earlier::keep_work, Earlier::overwrite})
+    EXPECT_NE(refused(two, earlier).find("holds strain/run.json"), std::string::npos);
+  EXPECT_TRUE(RunFolder(path, one, Earlier::keep_work).is_taken_up());
+}
+
 TEST_F(tripwire_run_folder, a_damaged_description_is_refused)
 {
   leave_run(one, 1.);
@@ -206,7 +217,8 @@ TEST_F(exact_run_folder, default_places_are_apart)
 TEST(exact_exit_status, the_worst_wins)
 {
   using namespace exit_status;
-  const std::vector<int> worst_first = {bad_input, not_converged, claim_failed, claim_open, good};
+  const std::vector<int> worst_first = {program_fault, bad_input,  not_converged,
+                                        claim_failed,  claim_open, good};
   for (std::size_t a = 0; a < worst_first.size(); ++a)
     for (std::size_t b = 0; b < worst_first.size(); ++b)
       EXPECT_EQ(worse(worst_first[a], worst_first[b]), worst_first[std::min(a, b)]);

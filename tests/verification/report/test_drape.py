@@ -82,12 +82,12 @@ class DrapePageTest(PageTest):
         self.assertLess(os.path.getsize(os.path.join(self.output, "report.html")), 8e6)
 
     def test_an_error_is_said_over_the_displacement_of_the_reference(self):
-        def cell_of(moved, error=2e-3):
+        def cell_of(moved, error=2e-3, method="localized"):
             row = {
                 **dict.fromkeys(("reference_uncertainty_m", "time_step_uncertainty_m"), 1e-5),
                 "variant": "biot",
                 "reference": "biot",
-                "method": drape_tables.METHOD,
+                "method": method,
                 "time_s": 1.0,
                 "error_mean_m": error,
                 "error_mean_per_cell": error / 0.01,
@@ -105,6 +105,9 @@ class DrapePageTest(PageTest):
         for moved in (0.0, math.nan):
             self.assertNotIn("displacement", sentence(moved))
             self.assertIn("is <b>2.00 mm</b>", sentence(moved))
+        # Of a run without `localized` that of its last method.
+        other = drape_tables.error_sentence(cell_of(0.02, method="full"), "biot", "biot")
+        self.assertIn("The mean error of full per vertex at the end", other)
 
     def test_scene_without_references_frames_and_terms_is_reported_and_what_is_absent_is_named(
         self,

@@ -54,7 +54,7 @@ TEST(tripwire_level_ellipticity, the_range_of_validity_ends_where_ellipticity_is
   {
     StrainRow error = {"cell", "strip-1", strain, "biot", "localized"};
     error.mean = error.per_cell = 0.1 * strain;
-    error.uncertainty           = 0.01 * strain;
+    error.bar                   = 0.01 * strain;
     errors.push_back(error);
   }
   const auto of_limit = [&](const double limit, const std::vector<LevelRow> &ellipticity)
@@ -78,6 +78,9 @@ TEST(tripwire_level_ellipticity, the_range_of_validity_ends_where_ellipticity_is
   EXPECT_LT(of_limit(0.05, lost).largest, 0.02);
   EXPECT_EQ(of_limit(0.05, lost).note, "");
   EXPECT_EQ(of_limit(0.05, {row(0.01, 0, 0.9), row(0.02, 0, 0.8)}).note, "");
+  // Nor does the upper end go beyond it.
+  errors[1].bar = 0.06;
+  EXPECT_EQ(of_limit(0.05, lost).upper, 0.025);
 }
 
 TEST(exact_level_ellipticity, a_pulled_cloth_of_one_phase_is_lost_where_theory_says_and_told_once)

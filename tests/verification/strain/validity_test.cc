@@ -39,7 +39,7 @@ TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
     row.mean            = 1e-2 * row.strain;
     row.per_cell        = row.strain;     // 1 % at strain 0.01
     row.per_fluctuation = 0.5;            // never within 10 %
-    row.uncertainty     = 0.1 * row.mean; // a tenth of the error
+    row.bar             = 0.1 * row.mean; // a tenth of the error
     rows.push_back(row);
   }
   const std::vector<ValidityRow> found = validity_rows(rows);
@@ -87,7 +87,7 @@ TEST(exact_validity, what_was_not_reached_or_is_not_known_is_no_range)
     row.mean            = 1e-2 * row.strain;
     row.per_cell        = row.strain;
     row.per_fluctuation = 0.01;
-    row.uncertainty     = 0.1 * row.mean;
+    row.bar             = 0.1 * row.mean;
     rows.push_back(row);
   }
   rows[2].mean = rows[2].per_cell = rows[2].per_fluctuation = StrainRow::none;
@@ -98,11 +98,69 @@ TEST(exact_validity, what_was_not_reached_or_is_not_known_is_no_range)
   // A bar wider than the limit, and a law that is lost.
   rows[2] = rows[1];
   for (StrainRow &row : rows)
-    row.uncertainty = 20. * rows.back().mean;
+    row.bar = 20. * rows.back().mean;
   LevelRow rest = {"cell", "strip-2", "biot", 0.001}, lost = {"cell", "strip-2", "biot", 0.004};
   rest.lost = 0, rest.least = 0.5;
   lost.lost = 1, lost.least = -0.5;
   const ValidityRow row = of_cell(std::vector<LevelRow>{rest, lost});
   EXPECT_LT(row.largest, 0.004);
   EXPECT_TRUE(std::isnan(row.lower)) << row.lower;
+}
+
+TEST(exact_validity, a_load_without_any_level_has_rows_that_say_so)
+{
+  StrainRow row       = {"cell", "periodic-12", 0.6, "biot", "localized", 4, 32, 100};
+  row.mean            = 1e-6;
+  row.per_cell        = 1e-4;
+  row.per_fluctuation = 1e-3;
+  row.bar             = 1e-8;
+  const std::vector<ValidityRow> found =
+    validity_rows({row, {"cell", "shear-frame", 0.6, "biot", unreached}});
+  ASSERT_EQ(found.size(), 10u);
+  for (const ValidityRow &one : found)
+  {
+    EXPECT_EQ(one.relation, one.load == "shear-frame" ? "-" : ">");
+    if (one.load == "shear-frame")
+    {
+      EXPECT_EQ(one.method, "localized");
+      EXPECT_NE(
+        one.note.find("no equilibrium of reference or coarse cloth was found at strain 0.6"),
+        std::string::npos);
+    }
+  }
+}
+
+TEST(exact_validity, a_law_that_is_lost_before_the_smallest_strain_leaves_no_range)
+{
+  StrainRow row       = {"cell", "strip-1", 0.05, "yarn", "localized", 4, 32, 100};
+  row.mean            = 1e-6;
+  row.per_cell        = 1e-4;
+  row.per_fluctuation = 1e-3;
+  row.bar             = 1e-8;
+  LevelRow lost       = {"cell", "strip-1", "yarn", 0.05};
+  lost.lost = 3, lost.least = -1.;
+  const ValidityRow found = validity_rows({row}, {lost})[3];
+  EXPECT_EQ(found.relation, "-");
+  EXPECT_TRUE(std::isnan(found.largest));
+  EXPECT_NE(found.note.find("loses ellipticity at 2.5 %"), std::string::npos) << found.note;
+}
+
+TEST(exact_validity, the_range_of_a_base_ends_where_no_base_has_an_equilibrium)
+{
+  std::vector<StrainRow> rows;
+  for (const double strain : {0.001, 0.01, 0.1})
+    for (const char *const method : {"affine", "localized", "full-micro", "full"})
+    {
+      StrainRow row       = {"cell", "strip-1", strain, "biot", method, 4, 32, 100};
+      row.mean            = 1e-6 * strain;
+      row.per_cell        = 1e-4 * strain;
+      row.per_fluctuation = 1e-3 * strain;
+      row.bar             = 1e-8 * strain;
+      if (strain == 0.01 && std::string(method) == "full-micro")
+        row.mean = row.per_cell = row.per_fluctuation = row.bar = StrainRow::none;
+      rows.push_back(row);
+    }
+  for (const ValidityRow &row : validity_rows(rows))
+    if (row.method == base_method)
+      EXPECT_EQ(row.largest, 0.001) << row.measure;
 }

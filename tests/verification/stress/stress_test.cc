@@ -72,6 +72,21 @@ TEST(exact_stress, an_axis_ends_at_the_first_value_that_is_wrong)
   EXPECT_EQ(rungs[3].outcome, row.why);
 }
 
+TEST(exact_stress, a_repetition_that_has_no_answer_ends_the_axis)
+{
+  StressAxis axis = planted();
+  int n_asked     = 0;
+  axis.at         = [&n_asked](const double value) -> StressAnswer
+  {
+    if (++n_asked > 4)
+      throw std::runtime_error("not again");
+    return {value, Eigen::MatrixXd::Constant(1, 1, value)};
+  };
+  const LimitRow row = climbed(axis);
+  EXPECT_EQ(row.end, 100.);
+  EXPECT_EQ(row.ended_by, "repetition");
+}
+
 TEST(exact_stress, an_axis_that_does_not_end_says_whether_more_was_tried)
 {
   StressAxis axis = planted();
@@ -144,9 +159,15 @@ TEST(tripwire_stress, a_limit_that_falls_fails_and_an_end_that_nothing_forbids_d
   EXPECT_EQ(verdict_of(promised, row, nullptr)->outcome, Outcome::fail);
   promised.theory = TheoryOfEnd::estimates;
   EXPECT_FALSE(verdict_of(promised, row, nullptr));
-  // Where a cap stops a climb nothing was wrong.
+  // Where time stops a climb what was not tried is open; what a size leaves out is not asked.
   const PublishedLimitRow limit = published(1000.);
-  EXPECT_EQ(verdict_of(planted(), climbed(planted(), -1.), &limit)->outcome, Outcome::pass);
+  EXPECT_EQ(verdict_of(planted(), climbed(planted(), -1.), &limit)->outcome, Outcome::inconclusive);
+  StressAxis small = planted();
+  small.most       = 10.;
+  const auto asked = verdict_of(small, climbed(small), &limit);
+  EXPECT_EQ(asked->outcome, Outcome::pass);
+  EXPECT_NE(asked->claim.find("10"), std::string::npos) << asked->claim;
+  EXPECT_EQ(asked->claim.find("1000"), std::string::npos) << asked->claim;
 }
 
 TEST(invariant_stress, ten_repetitions_agree_to_the_last_bit)

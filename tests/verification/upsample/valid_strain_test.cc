@@ -63,13 +63,14 @@ TEST(exact_valid_strain, the_load_that_fails_first_decides)
         add("dots", load, 0.01, "=", 0.001, method);
     add("dots", "strip-1", 0.01, "=", 0.001, "localized+edges"); // not of all loads
     add("other", "strip-1", 0.01, "=", 0.001);
+    add("all", "periodic-all", 0.01, "=", 0.1);
     add("bad", "strip-1", 0.01, "=", 0.1);
     add("bad", "strip-2", 0.01, "-", std::numeric_limits<double>::quiet_NaN());
   }
   const auto found = valid_strain(made, cell, "", 0.01, localized);
   ASSERT_TRUE(found.has_value());
   // Simple shear by 0.3 stretches by sqrt(1 + 0.3²/4) + 0.15.
-  EXPECT_NEAR(found->strain, std::sqrt(1. + 0.0225) + 0.15 - 1., 1e-15);
+  EXPECT_NEAR(found->strain, std::sqrt(1. + 0.0225) + 0.15 - 1., 1e-14);
   EXPECT_EQ(found->load, "shear-frame");
   EXPECT_FALSE(found->is_open);
   EXPECT_EQ(found->method, "localized");
@@ -92,13 +93,21 @@ TEST(exact_valid_strain, the_load_that_fails_first_decides)
   EXPECT_EQ(
     valid_strain(made, path + "/bad/cell.h5", path + "/validity.csv", 0.01, localized)->strain, 0.);
 
+  // F = [1.1 0.1; 0 1.05]: half the trace of F^T F, and half the difference of its eigenvalues.
+  const double half  = 0.5 * (1.21 + 0.01 + 1.1025),
+               apart = std::sqrt(half * half - 1.1 * 1.1 * 1.05 * 1.05);
+  EXPECT_NEAR(
+    valid_strain(made, path + "/all/cell.h5", path + "/validity.csv", 0.01, localized)->strain,
+    std::sqrt(half + apart) - 1., 1e-14);
+
   const auto refused = [&](const std::string &of, const std::string &file, const double limit)
   { return tests::refusal([&]() { valid_strain(made, of, file, limit, localized); }); };
   EXPECT_NE(refused(cell, "", 0.02).find("and limit 0.02; found the limits 0.01, 0.05"),
             std::string::npos);
-  EXPECT_NE(refused(path + "/none/cell.h5", path + "/validity.csv", 0.01)
-              .find("holds the cells bad, dots, other; expected one cell, or one that is named"),
-            std::string::npos);
+  EXPECT_NE(
+    refused(path + "/none/cell.h5", path + "/validity.csv", 0.01)
+      .find("holds the cells all, bad, dots, other; expected one cell, or one that is named"),
+    std::string::npos);
   EXPECT_NE(refused(cell, path + "/no.csv", 0.01).find("no.csv: no such file"), std::string::npos);
 
   // The cell that the run of the table left beside it: the same, one of another mesh, two others.

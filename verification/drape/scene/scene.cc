@@ -130,8 +130,17 @@ private:
     if (scene.has("friction") && !scene.has("obstacles"))
       faults.push_back(file + ": key `Terms`: `friction` without `obstacles`; expected both or "
                               "neither: add `obstacles` or remove `friction`");
+    static const std::set<std::string> of_sheets = {"Sheet cells", "Placement", "Centre",
+                                                    "Disturbance"};
+    const bool is_garment                        = !trimmed(keys.mesh).empty();
     for (const auto &[name, key] : declared.all())
     {
+      if (*key.value != key.initial &&
+          (is_garment ? of_sheets.count(name) != 0 : name == "Rest coordinate unit"))
+        faults.push_back(file + ": key `" + name + "` is of " +
+                         (is_garment ? "a sheet, and `Mesh` gives a garment"
+                                     : "a garment, and no `Mesh` is given") +
+                         "; expected one of both: remove the key");
       const auto term    = term_of.find(name);
       const bool is_used = term == term_of.end() || scene.has(term->second);
       if (is_used)

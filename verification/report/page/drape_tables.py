@@ -18,8 +18,6 @@ from figures.style import seconds, three
 from page import tables
 from page.tables import length
 
-METHOD = "localized"
-
 
 def facts(info):
     """Size and time stepping of the scene in one sentence."""
@@ -97,15 +95,23 @@ def rows_of(cell, variant, reference, method):
     return sorted(rows, key=lambda row: row["time_s"])
 
 
+def judged_method(cell):
+    """`localized`, or of a run without it the last method that is not `affine`."""
+    methods = [row["method"] for row in cell.errors if row["method"] != "affine"]
+    return "localized" if "localized" in methods else methods[-1] if methods else "affine"
+
+
 def error_sentence(cell, variant, reference):
     """Mean error at the end and its maximum over time, with the reference's own error bar."""
-    rows = rows_of(cell, variant, reference, METHOD)
+    method = judged_method(cell)
+    rows = rows_of(cell, variant, reference, method)
     if not rows:
         return f"Its error against {escape(reference)} is not known."
     last, worst = rows[-1], max(rows, key=lambda row: row["error_mean_m"])
     bar, sides = last["reference_uncertainty_m"], last["error_mean_per_cell"]
     moved, step = last["displacement_mean_m"], last["time_step_uncertainty_m"]
-    text = f"The mean error per vertex at the end ({three(last['time_s'])} s) is"
+    by = "" if method == "localized" else f" of {escape(method)}"
+    text = f"The mean error{by} per vertex at the end ({three(last['time_s'])} s) is"
     if moved > 0.0:  # what a length is worth, the motion says
         text += f" <b>{three(100.0 * last['error_mean_m'] / moved)} % of the mean displacement</b>,"
     text += f" <b>{length(last['error_mean_m'])}</b>"

@@ -43,10 +43,7 @@ Verdict verdict_of_norms(const std::vector<StrainRow> &rows)
       ++n_rows;
       n_wrong += !(row.mean <= (1. + rounding) * row.rms && row.rms <= (1. + rounding) * row.max);
     }
-  Verdict verdict = at_most("norms", {{"rows", n_rows}}, n_wrong, 0.);
-  if (n_rows == 0)
-    verdict.outcome = Outcome::inconclusive;
-  return verdict;
+  return open_without(n_rows, at_most("norms", {{"rows", n_rows}}, n_wrong, 0.));
 }
 
 std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow> &rows)
