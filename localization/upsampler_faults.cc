@@ -21,19 +21,18 @@ void check_lattice(const meshes::HomogenizedCell &cell, const meshes::Lattice &l
 }
 
 void check_image(const meshes::HomogenizedCell &cell, const int vertex,
-                 const Eigen::RowVector2d &place, const std::string &name,
+                 const Eigen::RowVector2d &place, const std::string &name, const int fine,
                  std::vector<std::string> &faults)
 {
-  constexpr double place_tolerance = 1e-5; // what another program's single precision may leave
-  const Eigen::RowVector2d f = cell.lattice.fractional(place - cell.mesh.vertices.row(vertex));
-  const double gap           = (f - Eigen::RowVector2d(f.array().round())).cwiseAbs().maxCoeff();
-  if (!(gap <= place_tolerance))
-  {
-    std::ostringstream text;
-    text << name << " lies " << gap << " cells from vertex " << vertex
-         << " of the cell and its images; expected none: it was tiled from another cell";
-    faults.push_back(text.str());
-  }
+  // What another program's single precision may leave.
+  const double tolerance = 1e-5 * std::sqrt(cell.lattice.area()),
+               gap       = cell.lattice.shortest(place - cell.mesh.vertices.row(vertex)).norm();
+  if (gap <= tolerance)
+    return;
+  std::ostringstream text;
+  text << name << ": vertex " << fine << " lies " << gap << " m from vertex " << vertex
+       << " of the cell and its images; expected none: it was tiled from another cell";
+  faults.push_back(text.str());
 }
 
 std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
@@ -60,8 +59,7 @@ std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
                      ": it was tiled from another cell");
   check_lattice(cell, sheet.lattice, "fine sheet", faults);
   for (int v = 0; v < n && faults.empty(); ++v)
-    check_image(cell, sheet.cell_vertex(v), sheet.mesh.vertices.row(v),
-                "fine sheet: vertex " + std::to_string(v), faults);
+    check_image(cell, sheet.cell_vertex(v), sheet.mesh.vertices.row(v), "fine sheet", v, faults);
   return faults;
 }
 

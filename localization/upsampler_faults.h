@@ -18,9 +18,9 @@ void check_lattice(const meshes::HomogenizedCell &cell, const meshes::Lattice &l
 
 /// Adds a fault where a place is none of a vertex of the cell and its images.
 /// @param place in the frame of the cell [m]
-/// @param name of what lies there
+/// @param name of the fine mesh whose vertex `fine` lies there
 void check_image(const meshes::HomogenizedCell &cell, int vertex, const Eigen::RowVector2d &place,
-                 const std::string &name, std::vector<std::string> &faults);
+                 const std::string &name, int fine, std::vector<std::string> &faults);
 
 /// Faults between a cell and a sheet that was tiled from it; empty where they fit.
 std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,

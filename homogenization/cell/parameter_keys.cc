@@ -93,6 +93,9 @@ void parse_parameters(const std::string &file, const ParameterKeys &keys, Faults
     else if (line.back() == '\\')
       faults.push_back(place + "found `" + line +
                        "`; expected the whole value in one line: no line goes on in the next");
+    else if (std::any_of(found.begin(), found.end(),
+                         [&](const auto &known) { return known.first == key->second.value; }))
+      faults.push_back(place + "key `" + name + "` is given twice; expected once");
     else
       found.emplace_back(key->second.value, trimmed(line.substr(line.find('=') + 1)));
   }

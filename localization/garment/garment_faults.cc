@@ -76,7 +76,7 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
         check_image(cell, image,
                     (fine.rest.vertices.row(v) - grain.origin) * grain.rotation() +
                       cell.mesh.vertices.row(cell.anchor),
-                    "fine cloth: vertex " + std::to_string(v), faults);
+                    "fine cloth", v, faults);
       const double distance = (point - fine.rest.vertices.row(v)).norm();
       if (!(distance <= 1e-6 * std::sqrt(fine.lattice.area()) + 1e-14 * point.norm()))
       {

@@ -134,6 +134,53 @@ std::optional<RestPlane> plane_of(const Polygons &mesh)
   return RestPlane{{along, normal.cross(along)}, "above"};
 }
 
+/// Some programs write a vt for each corner of a face. Where two faces share an edge, and both of
+/// its ends at the same place, their corners are one.
+class JoinedCorners
+{
+public:
+  JoinedCorners(const ObjContent &content, const std::vector<std::array<ObjCorner, 3>> &triangles)
+  {
+    using End      = std::tuple<int, double, double>; // v and place
+    const auto end = [&](const ObjCorner &corner)
+    {
+      const auto [x, y] = content.vt[static_cast<std::size_t>(corner.vt)];
+      return End(corner.v, x, y);
+    };
+    std::map<std::pair<End, End>, std::array<ObjCorner, 2>> edges;
+    for (const auto &triangle : triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const ObjCorner &from = triangle[k], &to = triangle[(k + 1) % 3];
+        edges.emplace(std::pair(end(from), end(to)), std::array{from, to});
+        if (const auto other = edges.find({end(to), end(from)}); other != edges.end())
+        {
+          join(from, other->second[1]);
+          join(to, other->second[0]);
+        }
+      }
+  }
+
+  /// (vt, v), the same of corners that are one.
+  std::array<int, 2> of(const ObjCorner &corner) const
+  {
+    std::array<int, 2> here = {corner.vt, corner.v};
+    for (auto next = first.find(here); next != first.end(); next = first.find(here))
+      here = next->second;
+    return here;
+  }
+
+private:
+  void join(const ObjCorner &one, const ObjCorner &other)
+  {
+    const std::array<int, 2> a = of(one), b = of(other);
+    if (a != b)
+      first[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::map<std::array<int, 2>, std::array<int, 2>> first; ///< a smaller one that is the same
+};
+
 /// The cloth of faces all of whose corners have vt.
 /// @throws BadInput with the faults of the cloth
 ClothMesh cloth_of(const ObjContent &content, const double vt_unit, const std::string &file)
@@ -155,17 +202,11 @@ ClothMesh cloth_of(const ObjContent &content, const double vt_unit, const std::s
                           std::min(doubled_area(f[0], f[1], f[2]), doubled_area(f[0], f[2], f[3]));
                  });
 
-  // Some programs write a vt for each corner of a face: those of one place are one.
-  std::map<std::tuple<int, double, double>, int> first; // vt of (v, place)
-  const auto vt_of = [&](const ObjCorner &corner)
-  {
-    const auto [x, y] = content.vt[static_cast<std::size_t>(corner.vt)];
-    return first.emplace(std::tuple(corner.v, x, y), corner.vt).first->second;
-  };
+  const JoinedCorners joined(content, triangles);
   std::map<std::array<int, 2>, int> rest_vertex; // of (vt, v)
   for (const auto &triangle : triangles)
     for (const ObjCorner &corner : triangle)
-      rest_vertex[{vt_of(corner), corner.v}] = 0;
+      rest_vertex[joined.of(corner)] = 0;
   ClothMesh cloth;
   cloth.positions = points_of(content.v);
   cloth.rest.vertices.resize(static_cast<Eigen::Index>(rest_vertex.size()), 2);
@@ -185,7 +226,7 @@ ClothMesh cloth_of(const ObjContent &content, const double vt_unit, const std::s
       const ObjCorner &corner = triangles[t][k];
       const auto row = static_cast<Eigen::Index>(t), column = static_cast<Eigen::Index>(k);
       cloth.triangles(row, column)      = corner.v;
-      cloth.rest.triangles(row, column) = rest_vertex.at({vt_of(corner), corner.v});
+      cloth.rest.triangles(row, column) = rest_vertex.at(joined.of(corner));
     }
   if (auto faults = cloth_faults(cloth, file); !faults.empty())
     throw BadInput(std::move(faults));

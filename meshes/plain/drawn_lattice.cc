@@ -16,18 +16,20 @@ namespace
 using Vector  = Eigen::RowVector2d;
 using Polygon = std::vector<Vector>;
 
-/// a1 nearest to the x axis and along it, a1 x a2 > 0.
-Lattice ordered(const Vector &one, const Vector &other)
+/// a1 nearest to the x axis and along it, of two as near the one that rises; a1 x a2 > 0.
+Lattice ordered(Vector one, Vector other)
 {
+  for (Vector *const vector : {&one, &other})
+    if ((*vector)(0) < 0.)
+      *vector *= -1.;
+  const double rise = std::abs(one(1)) / one.norm(), of_other = std::abs(other(1)) / other.norm();
+  constexpr double alike = 1e-7; // of a drawing that is symmetric about the x axis
+  if (of_other < rise - alike || (of_other < rise + alike && other(1) > one(1)))
+    std::swap(one, other);
   Lattice lattice;
   lattice.vectors << one, other;
-  if (std::abs(lattice.vectors(1, 1)) * lattice.vectors.row(0).norm() <
-      std::abs(lattice.vectors(0, 1)) * lattice.vectors.row(1).norm())
-    lattice.vectors.row(0).swap(lattice.vectors.row(1));
   if (lattice.vectors.determinant() < 0.)
     lattice.vectors.row(1) *= -1.;
-  if (lattice.vectors(0, 0) < 0.)
-    lattice.vectors *= -1.;
   lattice.vectors.array() += 0.; // prints 0, not -0
   return lattice;
 }

@@ -262,7 +262,8 @@ void Contact::touch(const Approach &vertex, const SurfacePoint &near)
 {
   const double h = vertex.step, t = parameters.thickness;
   const Eigen::Vector3d &n = near.normal;
-  // No faster than its weight stops it where the contact ends: it would be thrown.
+  // No faster than a fall through the same way: on a floor its weight stops it where contact ends,
+  // and it is not thrown.
   const double weight = vertex.fall.norm() / (h * h), gap = t - near.distance,
                rise   = weight > 0.
                           ? std::min(parameters.recovery_speed, std::sqrt(2. * weight * gap))

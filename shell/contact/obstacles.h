@@ -60,7 +60,7 @@ struct ContactParameters
     0.; ///< per vertex [N/m]; 0: 1000 m/h², which an equilibrium (h infinite) cannot take
   double slip_speed = 1e-3; ///< below it, friction sticks [m/s]
   /// At which a vertex within the thickness is pushed out at most [m/s]; where there is gravity, no
-  /// faster than it comes to rest at the thickness.
+  /// faster than a fall through the same way.
   double recovery_speed = 1.;
   Eigen::Vector3d gravity =
     Eigen::Vector3d::Zero(); ///< that the scene has, for looking ahead [m/s²]

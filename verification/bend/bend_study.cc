@@ -175,7 +175,7 @@ private:
     const BentSheet sheet = linear_sheet(cell, load, options.n_cells);
     const OptionalErrors bars =
       carried_bars(distance_of_meshes(cell, load, n_small()),
-                   growth_in_linear_theory(ratio_to_small()), cell.factor_of_bars());
+                   growth_in_linear_theory(ratio_to_small()), cell.factor);
     for (const double bending : options.curvatures)
     {
       const double curvature = bending / side_of(cell);
@@ -226,12 +226,11 @@ private:
         {
           leave_out(cell, load, "error bars at", bending, failure);
         }
-        add_rows(
-          cell, load, sheet.sheet,
-          {biot, bending, bent.error_of_method,
-           carried_bars(distances, growth_at_large_turns(ratio_to_small()), cell.factor_of_bars()),
-           sheet.sheet.mesh.n_triangles(), bent.curvature, bent.deflection, bent.seconds,
-           bent.seconds_reference});
+        add_rows(cell, load, sheet.sheet,
+                 {biot, bending, bent.error_of_method,
+                  carried_bars(distances, growth_at_large_turns(ratio_to_small()), cell.factor),
+                  sheet.sheet.mesh.n_triangles(), bent.curvature, bent.deflection, bent.seconds,
+                  bent.seconds_reference});
       }
       catch (const meshes::NotConverged &failure)
       {

@@ -7,7 +7,6 @@
 #include "verification/cell/discretization_distance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -38,23 +37,25 @@ UnitCell refined_cell(const UnitCell &cell)
   finer.mesh     = meshes::refined(cell.mesh, 1);
   return finer;
 }
+
+/// Of the corners of a plate, which are those of its analogous membrane.
+double factor_of(const BendingCell &bent)
+{
+  const homogenization::Singularity corners =
+    homogenization::singularity_of(homogenization::corners_of(
+      bent.cell.mesh, bent.cell.lattice,
+      homogenization::analogous_membranes(bent.bending_stiffness_of_phase)));
+  return std::max(safety_unconfirmed,
+                  factor_of_bars(corners.exists ? std::min(2. * corners.strongest, 2.) : 2.));
+}
 } // namespace
 
 CellTwice::CellTwice(const UnitCell &cell)
     : drawn(cell)
     , refined_unit(refined_cell(cell))
     , finer(refined_unit)
+    , factor(factor_of(drawn))
 {
-}
-
-double CellTwice::factor_of_bars() const
-{
-  const homogenization::Singularity corners =
-    homogenization::singularity_of(homogenization::corners_of(
-      drawn.cell.mesh, drawn.cell.lattice,
-      homogenization::analogous_membranes(drawn.bending_stiffness_of_phase)));
-  const double order = corners.exists ? std::min(2. * corners.strongest, 2.) : 2.;
-  return std::max(safety_unconfirmed, 1.25 / (1. - std::pow(2., -order)));
 }
 
 OptionalErrors distance_of_meshes(const CellTwice &cell, const BendingLoad &load, const int n)

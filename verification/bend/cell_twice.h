@@ -19,10 +19,9 @@ struct CellTwice
   const homogenization::UnitCell refined_unit;
   const BendingCell finer;
 
-  /// Of the distance between both meshes, for the error of the drawn one: 1.25 / (1 - 2^-q), q
-  /// twice the exponent of the strongest corner and at most 2, and no less than what is asked of
-  /// two meshes whose order is not confirmed.
-  double factor_of_bars() const;
+  /// Of the distance between both meshes, for bars: factor_of_bars() of the strongest corner of the
+  /// plate, and no less than what is asked of two meshes whose order is not confirmed.
+  const double factor;
 };
 
 using OptionalErrors = BentSheet::OfMethods<std::optional<BendingError>>;
@@ -45,8 +44,8 @@ OptionalErrors distance_of_errors(const meshes::Sheet &drawn,
 BentSheet::OfMethods<double> growth_in_linear_theory(double ratio);
 BentSheet::OfMethods<double> growth_at_large_turns(double ratio);
 
-/// Bars from the distances on a small sheet: three times, because two meshes confirm no order
-/// (Roache 1994), and in position by a growth.
+/// Bars from the distances on a small sheet, and in position by a growth.
+/// @param factor CellTwice::factor
 OptionalErrors carried_bars(const OptionalErrors &distances,
                             const BentSheet::OfMethods<double> &growth, double factor);
 } // namespace homespun::verification

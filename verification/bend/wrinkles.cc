@@ -79,7 +79,7 @@ std::vector<WrinkleRow> wrinkles(const CellTwice &cell, const std::vector<int> &
       row.most_compression        = 2. * std::sqrt(row.foundation * mean_D);
       try
       {
-        resolve(drawn, finer, n, row.foundation / covered, cell.factor_of_bars(), row);
+        resolve(drawn, finer, n, row.foundation / covered, cell.factor, row);
       }
       catch (const meshes::NotConverged &)
       {

@@ -166,7 +166,7 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
   if (!result.abandoned.empty())
     text << "Conjugate gradients with multigrid were given up after " << result.abandoned.size() - 1
          << " iterations; a direct solver took over\n";
-  for (const std::string &note : notes_on_cuts({cell}))
+  for (const std::string &note : notes_on_cells({cell}))
     text << note << "\n";
   text << "C^H" << (is_of_drawing(assessed) ? " of the drawing" : "")
        << " [N/m], Voigt 11, 22, 12 with engineering shear";

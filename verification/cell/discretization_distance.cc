@@ -26,8 +26,13 @@ double order_of_p2(const homogenization::UnitCell &cell, const double highest)
   return corners.exists ? std::min(2. * corners.strongest, highest) : highest;
 }
 
+double factor_of_bars(const double order)
+{
+  return 1.25 / (1. - std::pow(2., -order));
+}
+
 double factor_of_bars(const homogenization::UnitCell &cell)
 {
-  return 1.25 / (1. - std::pow(2., -order_of_p2(cell, 2.)));
+  return factor_of_bars(order_of_p2(cell, 2.));
 }
 } // namespace homespun::verification

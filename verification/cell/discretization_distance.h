@@ -40,8 +40,10 @@ constexpr double order_of_p2_energy = 4.;
 /// exponent of the strongest corner of the cell, and at most `highest`.
 double order_of_p2(const homogenization::UnitCell &cell, double highest);
 
-/// 1.25 / (1 - 2^-q), q twice the exponent of the strongest corner and at most 2, the order of the
-/// energy of P1: by it the distance from the once refined mesh is the error of the given one, with
-/// a margin (grid convergence index).
+/// 1.25 / (1 - 2^-q): by it the distance from the once refined mesh is the error of the given one,
+/// with a margin (grid convergence index).
+double factor_of_bars(double order);
+
+/// Its q twice the exponent of the strongest corner and at most 2, the order of the energy of P1.
 double factor_of_bars(const homogenization::UnitCell &cell);
 } // namespace homespun::verification

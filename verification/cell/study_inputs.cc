@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/study_inputs.h"
 
+#include "homogenization/lint/cell_lint.h"
 #include "meshes/plain/errors.h"
+#include "verification/record/number_text.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 
@@ -51,12 +54,19 @@ std::string fingerprint(const UnitCell &cell)
   return printed(hash);
 }
 
-std::vector<std::string> notes_on_cuts(const std::vector<UnitCell> &cells)
+std::vector<std::string> notes_on_cells(const std::vector<UnitCell> &cells)
 {
   std::vector<std::string> notes;
   for (const UnitCell &cell : cells)
+  {
     if (cell.shift)
       notes.push_back(cell.name + ": " + homogenization::sentence_of(*cell.shift) + ".");
+    const double side = std::sqrt(cell.lattice.area());
+    if (!homogenization::lint_size(side, 1.).empty())
+      notes.push_back(
+        cell.name + ": a side of the cell is " + short_text(side) +
+        " m, which no cloth has: is `Length unit` right? `homespun check` says more.");
+  }
   return notes;
 }
 

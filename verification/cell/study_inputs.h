@@ -18,7 +18,7 @@ void check_names(const std::vector<homogenization::UnitCell> &cells);
 /// of its phases.
 std::string fingerprint(const homogenization::UnitCell &cell);
 
-/// Which cells are not cut from the cloth as they are drawn, and by how much: a sentence of each,
-/// for every result.
-std::vector<std::string> notes_on_cuts(const std::vector<homogenization::UnitCell> &cells);
+/// Which cells are not cut from the cloth as they are drawn, and by how much, and which have a size
+/// that no cloth has: sentences for every result.
+std::vector<std::string> notes_on_cells(const std::vector<homogenization::UnitCell> &cells);
 } // namespace homespun::verification

@@ -117,7 +117,7 @@ std::string StudyOfCells::write_cell(const UnitCell &cell, const AssessedCell &a
 void StudyOfCells::write(StudyDescription description)
 {
   const unsigned int n_ranks = n_ranks_of(communicator);
-  for (const std::string &note : notes_on_cuts(all_cells))
+  for (const std::string &note : notes_on_cells(all_cells))
     description.notes.push_back(note);
   nlohmann::ordered_json study = {{"command", given.command}};
   if (!description.told.is_null())

@@ -269,9 +269,9 @@ void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress 
       {
         with_term.emplace(draped, std::set<std::string>{term});
       }
-      catch (const meshes::BadInput &)
+      catch (const meshes::BadInput &fault)
       {
-        // This integrator or mesh cannot take the term: it has no cost.
+        progress.note(draped.cell.name + ": `" + term + "` has no cost here: " + fault.what());
       }
     for (int k = 0; k < n_steps; ++k)
     {

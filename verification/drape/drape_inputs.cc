@@ -179,15 +179,16 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
   }
 }
 
-void check_variant(const DrapedCell &draped, const Law law)
+void check_variant(const Scene &scene, const UnitCell &cell, const Eigen::Matrix3d &stiffness,
+                   const Law law)
 {
   try
   {
-    shell::law_terms(law, draped.coarse, nullptr, draped.effective.stiffness, 0., {});
+    shell::law_terms(law, CoarseStart(scene, cell).mesh, nullptr, {stiffness}, 0., {});
   }
   catch (const meshes::BadInput &fault)
   {
-    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + draped.cell.name + ": " +
+    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + cell.name + ": " +
                            fault.what());
   }
 }

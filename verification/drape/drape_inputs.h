@@ -37,8 +37,10 @@ Scene scene_of(const DrapeOptions &options);
 ///   a method asks for a term that the scene does not list, or the other way round
 void check_references(const DrapeOptions &options, const Scene &scene);
 
-/// @throws BadInput where the coarse cloth cannot have a law, before anything moves
-void check_variant(const DrapedCell &draped, Law law);
+/// @param stiffness C^H of the cell
+/// @throws BadInput where its coarse cloth cannot have a law
+void check_variant(const Scene &scene, const homogenization::UnitCell &cell,
+                   const Eigen::Matrix3d &stiffness, Law law);
 
 /// @throws BadInput where the cloth cannot be made of a cell, a held vertex does not exist, or a
 ///   place holds nothing

@@ -130,10 +130,14 @@ void DrapeOutput::list_earlier_frames(const std::string &run, const int n,
 std::vector<std::string>
 DrapeOutput::worst_errors(const std::map<std::string, std::string> &main_variants) const
 {
+  std::map<std::string, std::string> methods;
+  for (const auto &[cell, variant] : main_variants)
+    methods[cell] = judged_method(errors.rows(), cell);
   std::map<std::string, double> worst;
   for (const DrapeRow &row : errors.rows())
-    if (row.variant == main_variants.at(row.cell) &&
-        row.method == judged_method(errors.rows(), row.cell) && std::isfinite(row.mean_per_cell))
+    if (row.method == methods.at(row.cell) &&
+        (row.variant == main_variants.at(row.cell) || row.variant == row.method) &&
+        std::isfinite(row.mean_per_cell))
     {
       double &largest = worst[row.cell + " against " + row.reference + ": largest mean error of `" +
                               row.method + "`"];

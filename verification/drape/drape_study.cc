@@ -104,30 +104,46 @@ private:
     for (const std::string &warning : scene_warnings(scene))
       drape.note(warning);
     for (const UnitCell &cell : cells())
+      check_variants(cell);
+    for (const UnitCell &cell : cells())
       study_cell(cell);
+  }
+
+  CellNeeds needs() const
+  {
+    CellNeeds needs = needs_of(options, scene);
+    needs.bending   = scene.has("bending") && !scene.bending;
+    return needs;
+  }
+
+  /// Of all cells before the first one moves.
+  void check_variants(const UnitCell &cell)
+  {
+    if (options.variants.size() < 2)
+      return; // the law of the cloth itself
+    std::vector<Verdict> told_later;
+    const Eigen::Matrix3d C = homogenize(cell, needs(), told_later).result.stiffness;
+    for (const std::string &variant : options.variants)
+      if (const std::optional<Law> law = membrane_of(variant))
+        check_variant(scene, cell, C, *law);
   }
 
   void study_cell(const UnitCell &cell)
   {
     drape.progress.milestone(cell.name + ": homogenization");
-    CellNeeds needs              = needs_of(options, scene);
-    needs.bending                = scene.has("bending") && !scene.bending;
-    const AssessedCell &assessed = homogenize(cell, needs, verdicts);
+    const CellNeeds needed       = needs();
+    const AssessedCell &assessed = homogenize(cell, needed, verdicts);
     const Eigen::Matrix3d &C     = assessed.result.stiffness;
     const Law law =
       options.variants.empty() ? law_of_cloth(cell, C) : law_of(options.variants.front());
     const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()), law,
-                            needs.edges ? assessed.edges->edges : std::nullopt);
+                            needed.edges ? assessed.edges->edges : std::nullopt);
     main_variants[cell.name] = name_of(law);
     write_notes_on_laws(draped);
-    write_notes_on_methods(draped, needs.edges ? assessed.edges->why_not : "");
+    write_notes_on_methods(draped, needed.edges ? assessed.edges->why_not : "");
     if (draped.edges)
       drape.note(cell.name + ": " + sentence_of_edges(draped.kinds_of_edges()));
     nlohmann::ordered_json description = description_of(draped);
-
-    for (const CoarseCloth &cloth : cloths_of_cell(draped))
-      if (cloth.law)
-        check_variant(draped, *cloth.law);
 
     CoarseRuns coarse;
     on_root(communicator,

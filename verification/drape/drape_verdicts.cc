@@ -23,6 +23,7 @@ struct OverTime
   double bar          = 0.; ///< not a number where that of some frame is not known
 };
 
+/// @param method whose rows are those of its own cloth, if it has one
 /// @param among these frames alone; empty: all after the beginning
 OverTime over_time(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
                    const std::string &method, const std::set<int> &among = {})
@@ -30,7 +31,8 @@ OverTime over_time(const std::vector<DrapeRow> &rows, const JudgedErrors &of,
   OverTime mean;
   for (const DrapeRow &row : rows)
     if (row.cell == of.cell && row.reference == of.reference && row.method == method &&
-        row.variant == of.variant && row.frame > 0 && (among.empty() || among.count(row.frame) > 0))
+        (row.variant == of.variant || row.variant == method) && row.frame > 0 &&
+        (among.empty() || among.count(row.frame) > 0))
     {
       mean.frames.insert(row.frame);
       mean.error += row.mean;

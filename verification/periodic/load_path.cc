@@ -33,7 +33,15 @@ LoadPath load_path(const CellAssembly &assembly, const LoadControl &control, con
     const double factor = static_cast<double>(step) / n_steps;
     try
     {
-      path.last = states.at(factor);
+      const CellEquilibrium &state = states.at(factor);
+      if (const Eigen::Matrix2d &F = state.gradient;
+          !(F.determinant() > 0. && F(0, 0) > 0. && F(1, 1) > 0.))
+      {
+        path.why = "the equilibrium that Newton's method found is turned inside out; a stress is "
+                   "one of a cloth, in N/m";
+        return path;
+      }
+      path.last = state;
     }
     catch (const meshes::NotConverged &failure)
     {

@@ -123,6 +123,11 @@ int guarded(const Action &action, const bool tells)
       std::cerr << "homespun: " << failure.what() << "\n";
     return exit_status::not_converged;
   }
+  catch (const FirstRankAtFault &)
+  {
+    MPI_Barrier(MPI_COMM_WORLD); // the first rank tells, and ends all
+    return exit_status::program_fault;
+  }
   catch (const std::bad_alloc &)
   {
     return ended_alone("the memory of this machine does not suffice; expected a coarser mesh or "

@@ -38,6 +38,16 @@ inline unsigned int n_ranks_of(const MPI_Comm communicator)
   return static_cast<unsigned int>(n);
 }
 
+/// On the other ranks, where homespun itself is at fault on the first one, which tells.
+class FirstRankAtFault : public std::logic_error
+{
+public:
+  FirstRankAtFault()
+      : std::logic_error("the first rank failed")
+  {
+  }
+};
+
 /// Runs `work` on the first rank, or on the only process of a program that has not started MPI.
 /// All ranks must call this; where the work throws, all throw: the first rank what it caught, the
 /// others the same kind (NotConverged, a fault of the program's own, else BadInput).
@@ -80,7 +90,7 @@ void on_root(const MPI_Comm communicator, Work &&work)
   if (status == not_converged)
     throw meshes::NotConverged("the first rank did not converge", {});
   if (status == own_fault)
-    throw std::logic_error("the first rank failed");
+    throw FirstRankAtFault();
   if (status == bad_input)
     throw meshes::BadInput("the first rank failed");
 }

@@ -115,15 +115,23 @@ std::vector<std::string> foreign_files(const std::string &folder,
   return foreign;
 }
 
-/// run.json of the runs that have a folder of their own in a folder; `homespun verify` alone makes
-/// such runs itself.
+/// run.json of the runs that have a folder of their own in a folder, but for those that a run of
+/// `homespun verify` makes there, of cells, of scenes and of its parts.
 std::vector<std::string> runs_within(const std::string &folder, const ordered_json &earlier)
 {
+  std::set<std::string> own;
+  if (earlier.value("command", "") == "verify")
+  {
+    own = {"cells", "hang", "pull"};
+    for (const ordered_json &part : earlier["inputs"].value("parts", ordered_json::array()))
+      own.insert(part.get<std::string>());
+  }
   std::vector<std::string> runs;
-  if (earlier.value("command", "") != "verify")
-    for (const auto &entry : fs::recursive_directory_iterator(folder))
-      if (entry.path().filename() == "run.json" && entry.path().parent_path() != fs::path(folder))
-        runs.push_back(fs::relative(entry.path(), folder).string());
+  for (const auto &entry : fs::recursive_directory_iterator(folder))
+    if (const fs::path inside = fs::relative(entry.path(), folder);
+        entry.path().filename() == "run.json" && inside.has_parent_path() &&
+        own.count(inside.begin()->string()) == 0)
+      runs.push_back(inside.string());
   return runs;
 }
 

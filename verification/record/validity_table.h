@@ -14,8 +14,9 @@ namespace homespun::verification
 ///   =  the crossing was found
 ///   >  the limit is kept at every level; `largest` is the largest level
 ///   -  it is exceeded at the smallest level, `largest` is empty and `note` says by how much
-/// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
-/// meets the limit. `elliptic_up_to` is the strain of the load from which on a triangle of
+///   ?  nothing is known, `largest` is empty and `note` says why
+/// `lower` and `upper` are where the error with its own error bar added, and taken off, meets the
+/// limit. `elliptic_up_to` is the strain of the load from which on a triangle of
 /// reference or coarse cloth is not elliptic, the same for every measure and limit; empty where all
 /// levels that were reached are. `least_radius_m` is the same for every row of a cell. Rows are of
 /// `localized`, of the method that the study speaks of (method/method.h), and of its `base`, which

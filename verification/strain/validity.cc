@@ -84,7 +84,7 @@ void end_at_loss(ValidityRow &row, const double smallest)
     return;
   if (row.elliptic_up_to < smallest)
   {
-    row.relation = "-";
+    row.relation = "?";
     row.largest = row.lower = row.upper = ValidityRow::none;
     row.note = row.reference + " loses ellipticity at " + percent_text(row.elliptic_up_to) +
                ", before the smallest strain of the study";
@@ -155,7 +155,7 @@ std::vector<StrainRow> without_any_level(const std::vector<StrainRow> &rows,
   return missing;
 }
 
-/// Without any level there is no range.
+/// Without any level no range is known.
 ValidityRow row_of_none(const StrainRow &one, const std::string &measure, const double limit,
                         const double first_unreached)
 {
@@ -165,7 +165,7 @@ ValidityRow row_of_none(const StrainRow &one, const std::string &measure, const 
           one.method,
           measure,
           limit,
-          "-",
+          "?",
           ValidityRow::none,
           ValidityRow::none,
           ValidityRow::none,

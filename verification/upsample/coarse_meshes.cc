@@ -32,14 +32,16 @@ RestMesh read_rest(const UpsampleOptions &options)
   return rest;
 }
 
-void check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
-                  const CoarseIndicators &rest_indicators, const UpsampleOptions &options)
+double check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
+                    const CoarseIndicators &rest_indicators, const UpsampleOptions &options)
 {
   std::vector<std::string> faults;
+  double farthest = 0.;
   for (const FrameFile &frame : frames)
     try
     {
       const Polygons mesh = read_in_metres(frame.file, options);
+      farthest            = std::max(farthest, mesh.positions.cwiseAbs().maxCoeff());
       std::string fault   = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
       if (fault.empty() && !options.accepts_strain)
       {
@@ -64,7 +66,7 @@ void check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
       faults.push_back(file + ": lies in the folder of the results, " + options.output +
                        "; expected it elsewhere: choose another --output");
   if (faults.empty())
-    return;
+    return farthest;
   constexpr std::size_t most = 10;
   if (faults.size() > most)
   {

@@ -29,7 +29,8 @@ meshes::Polygons read_in_metres(const std::string &file, const UpsampleOptions &
 RestMesh read_rest(const UpsampleOptions &options);
 
 /// @param rest_indicators those of the rest mesh
+/// @return the largest coordinate of all frames [m]
 /// @throws BadInput with all that is wrong with any frame, and what has to be asked about its unit
-void check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
-                  const CoarseIndicators &rest_indicators, const UpsampleOptions &options);
+double check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
+                    const CoarseIndicators &rest_indicators, const UpsampleOptions &options);
 } // namespace homespun::verification

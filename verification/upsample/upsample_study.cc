@@ -77,7 +77,7 @@ public:
     if (const std::string question = question_of_cells(rest.cloth, cell_side, rest.units);
         !question.empty() && !options.accepts_strain)
       throw meshes::BadInput(question);
-    check_frames(frames, rest, CoarseIndicators(rest.cloth, cell_side), options);
+    farthest = check_frames(frames, rest, CoarseIndicators(rest.cloth, cell_side), options);
     const meshes::Grain grain = {{options.origin[0], options.origin[1]},
                                  options.angle * M_PI / 180.};
     fine                      = std::make_unique<UpsampledCloth>(
@@ -235,7 +235,6 @@ private:
     Polygons mesh;
     seconds["read"].push_back(seconds_of([&]() { mesh = read_in_metres(frame.file, options); }));
     passed_over.insert(mesh.passed_over.begin(), mesh.passed_over.end());
-    farthest = std::max(farthest, mesh.positions.cwiseAbs().maxCoeff());
     // The file may have been written anew since it was checked.
     if (const std::string fault = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
         !fault.empty())
@@ -346,7 +345,7 @@ private:
               ? ""
               : ", not of what " + options.method + " has here,") +
            " within " + short_text(100. * valid->limit) + " % of the cell side against " +
-           valid->law + "; " + valid->load + " decides; " + valid->file + ")";
+           valid->law + "; " + valid->load + " decides" + valid->unknown + "; " + valid->file + ")";
   }
 
   ordered_json description() const

@@ -141,13 +141,19 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
     // The motion may be anybody's: nothing is known of what moved the coarse cloth.
     if (!is_of_cell(row) || row.method != valid.method)
       continue;
-    if (row.relation != "-" && !std::isfinite(row.largest))
+    const bool is_unknown = row.relation == "?";
+    if (row.relation != "-" && !is_unknown && !std::isfinite(row.largest))
       throw meshes::BadInput(file + ": the row of cell " + row.cell + ", load " + row.load +
                              " has no largest strain; expected a number beside `" + row.relation +
                              "`: run `homespun strain` again");
     limits.insert(short_text(row.limit));
     if (std::abs(row.limit - limit) > 1e-9 * limit)
       continue;
+    if (is_unknown)
+    {
+      valid.unknown += ", of " + row.load + " no range is known (" + row.note + ")";
+      continue;
+    }
     const bool is_none  = row.relation == "-";
     const double strain = is_none ? 0. : principal_strain(row.load, row.largest);
     if (is_told && strain >= valid.strain)
@@ -157,6 +163,8 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
     valid.load    = row.load;
     valid.is_open = row.relation == ">";
   }
+  if (!is_told && !valid.unknown.empty())
+    return {};
   if (!is_told)
     throw meshes::BadInput(file + ": has no row of cell " + valid.cell + ", reference " +
                            valid.law + ", measure `cell side` and limit " + short_text(limit) +

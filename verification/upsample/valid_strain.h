@@ -26,6 +26,7 @@ struct ValidStrain
   bool is_open = false; ///< the limit is kept at the largest level: more was not tried
   double limit = 0.;    ///< part of the cell side
   std::string cell, file;
+  std::string unknown; ///< loads of which the table knows no range, with the reason
 };
 
 /// Whether two methods have the same terms where nothing bends, as in the sheets of the table.
@@ -42,7 +43,8 @@ bool are_alike_in_a_plane(const localization::Method &one, const localization::M
 /// @param given the method; its own rows count where the table has them of its law and of all loads
 /// that `localized` has, but of slip that up-sampling adds, which the studied cloths have
 /// themselves; else those of `localized` do
-/// @return nothing where no table is asked for and there is none, or one of another cell
+/// @return nothing where no table is asked for and there is none, or one of another cell, and where
+/// it knows no range
 /// @throws BadInput where the table cannot be read, or lacks the cell, such a law or the limit, or
 /// is asked for and of another cell
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,

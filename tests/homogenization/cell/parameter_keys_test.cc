@@ -81,7 +81,7 @@ TEST(invariant_parameter_keys, values_and_documentation_are_those_of_dealii)
 {
   for (const char *content :
        {"", "# nothing\n\n", "set Key of two = 1 2  3\t4 # a comment\n", "set\tOther\t=\t5\r\n",
-        "set Other=4\nset Other = a = b\n", "set Other =\n",
+        "set Other = a = b\n", "set Other =\n",
         " set Owner's = \"q\" \nset Key of two = soft: 1e6, hard: 1e7", "set Other = x#y\n",
         "\tset Other = 1;\n\n#set Other = 7\nset Key of two =   \n"})
   {
@@ -108,6 +108,16 @@ TEST(invariant_parameter_keys, a_line_that_would_go_on_is_refused)
                                 "line"),
             std::string::npos)
     << read.faults[0];
+}
+
+// deal.II takes the last one.
+TEST(invariant_parameter_keys, a_key_that_is_given_twice_is_refused)
+{
+  const Read read = read_by_homespun("set Other=4\nset Other = 5\n");
+  ASSERT_EQ(read.faults.size(), 1u);
+  EXPECT_NE(read.faults[0].find(":2: key `Other` is given twice"), std::string::npos)
+    << read.faults[0];
+  EXPECT_EQ(read.values, "[abc][][]");
 }
 
 TEST(invariant_parameter_keys, faults_are_told_all_at_once_and_change_no_value)

@@ -179,6 +179,15 @@ TEST(exact_obj_file, a_vt_for_each_corner_of_a_face_makes_no_panels)
   EXPECT_EQ(cloth.rest.triangles.row(1), Eigen::RowVector3i(0, 2, 3));
 }
 
+TEST(exact_obj_file, panels_that_meet_in_a_point_stay_apart)
+{
+  // Two gores of a cap, on top of each other in vt, sewn along one side each and at the apex.
+  const TemporaryFile file("gores.obj", "v 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\n"
+                                        "vt 0 1\nvt -0.4 0\nvt 0.4 0\nvt 0 1\nvt -0.4 0\nvt 0.4 0\n"
+                                        "f 1/1 2/2 3/3\nf 1/4 3/5 4/6\n");
+  EXPECT_EQ(read_cloth(file.path).rest.n_vertices(), 6);
+}
+
 TEST(exact_obj_file, a_comment_ends_with_its_line)
 {
   const TemporaryFile file("comment.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"

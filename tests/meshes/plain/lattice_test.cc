@@ -77,6 +77,21 @@ TEST(exact_lattice, the_first_vector_of_a_frame_is_nearest_to_the_x_axis_however
   }
 }
 
+TEST(exact_lattice, round_off_does_not_choose_the_first_vector_of_a_rhombus)
+{
+  Lattice lattice;
+  lattice.vectors << 1., 0.5, -1., 0.5;
+  for (const double off : {-1e-12, 0., 1e-12})
+  {
+    TriangleMesh mesh = tests::parallelogram(lattice, 2, 2);
+    mesh.vertices.col(1) += off * mesh.vertices.col(0);
+    EXPECT_LT(
+      (frames_of(mesh, 1e-9).front().lattice.vectors - lattice.vectors).cwiseAbs().maxCoeff(),
+      1e-11)
+      << off;
+  }
+}
+
 TEST(exact_lattice, a_cell_is_anchored_where_both_vectors_begin_whatever_they_are)
 {
   const TriangleMesh mesh = tests::parallelogram(tests::square_lattice(1.), 3, 4);

@@ -184,7 +184,6 @@ TEST(invariant_conserving, the_work_of_every_term_is_the_change_of_its_energy_an
   }
 }
 
-// Between states that are near to each other both integrators have the same viscous forces.
 TEST(invariant_conserving, an_undamped_sheet_keeps_its_energy_however_long_the_step)
 {
   const meshes::ClothMesh mesh = lying_sheet(6);

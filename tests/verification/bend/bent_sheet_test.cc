@@ -177,7 +177,7 @@ TEST(bound_bent_sheet, what_meshes_move_is_covered_by_what_they_move_on_a_small_
   for (const char *load : {"roll", "pressure"})
   {
     const auto small   = distance_of_meshes(cell, load_of(load), 3),
-               carried = carried_bars(small, growth_in_linear_theory(2.), cell.factor_of_bars()),
+               carried = carried_bars(small, growth_in_linear_theory(2.), cell.factor),
                large   = distance_of_meshes(cell, load_of(load), 6);
     for (std::size_t m = 0; m < large.size(); ++m)
     {
@@ -201,7 +201,7 @@ TEST(exact_bent_sheet, bars_of_two_meshes_know_how_slowly_strong_corners_converg
                      {homogenization::isotropic("soft", 1e6, 0.3, 5e-4, 400.),
                       homogenization::isotropic("hard", contrast * 1e6, 0.3, 5e-4, 400.)},
                      [](const double f1, const double f2) { return (f1 < 0.5) == (f2 < 0.5); });
-    return CellTwice(unit).factor_of_bars();
+    return CellTwice(unit).factor;
   };
   EXPECT_EQ(factor_of(2.), 3.);
   EXPECT_GT(factor_of(1000.), 6.);

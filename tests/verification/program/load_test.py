@@ -42,6 +42,14 @@ class Load(InFolder):
             mean = 0.5 * (row["stress_11_N_per_m"] - other["stress_11_N_per_m"])
             self.assertAlmostEqual(mean * compliance[0, 0] / 1e-6, 1., delta=1e-6, msg=row)
 
+    def test_a_cloth_that_is_turned_inside_out_is_no_level(self):
+        rows = self.load("--stress", "11=1e5", "--references", "linear,biot")
+        for row in rows:
+            self.assertGreater((1. + row["strain_11"]) * (1. + row["strain_22"]), 0., row)
+        claims = json.loads((self.folder / "run" / "verdicts.json").read_text())["verdicts"]
+        self.assertTrue(any("turned inside out" in claim["limit"] and claim["verdict"] != "PASS"
+                            for claim in claims), claims)
+
     def test_what_is_prescribed_is_there_and_what_is_free_has_a_bar(self):
         rows = self.load("--stress", "11=20,12=0", "--strain", "22=-2%", "--steps", "4")
         last = [row for row in rows if row["law"] == "biot" and row["method"] == "resolved"][-1]

@@ -78,7 +78,8 @@ class Sentences(unittest.TestCase):
         self.assertEqual(
             first_sentence([bent("roll", NONE), bent("twist", LOSES)]),
             self.BENT + "gain nothing beyond the error bars from the deflection of the cell under"
-            " any load; it makes their error 2.00 (twist) times larger.",
+            " any load; with all terms their error is 2.00 (twist) times that of the better of the"
+            " sheets without it.",
         )
 
     def test_where_all_gain_it_says_what_is_left(self):

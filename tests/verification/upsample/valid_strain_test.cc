@@ -64,6 +64,8 @@ TEST(exact_valid_strain, the_load_that_fails_first_decides)
     add("dots", "strip-1", 0.01, "=", 0.001, "localized+edges"); // not of all loads
     add("other", "strip-1", 0.01, "=", 0.001);
     add("all", "periodic-all", 0.01, "=", 0.1);
+    add("all", "shear-frame", 0.01, "?", std::numeric_limits<double>::quiet_NaN());
+    add("blind", "strip-1", 0.01, "?", std::numeric_limits<double>::quiet_NaN());
     add("bad", "strip-1", 0.01, "=", 0.1);
     add("bad", "strip-2", 0.01, "-", std::numeric_limits<double>::quiet_NaN());
   }
@@ -100,13 +102,20 @@ TEST(exact_valid_strain, the_load_that_fails_first_decides)
     valid_strain(made, path + "/all/cell.h5", path + "/validity.csv", 0.01, localized)->strain,
     std::sqrt(half + apart) - 1., 1e-14);
 
+  EXPECT_NE(valid_strain(made, path + "/all/cell.h5", path + "/validity.csv", 0.01, localized)
+              ->unknown.find("of shear-frame no range is known"),
+            std::string::npos);
+  EXPECT_FALSE(
+    valid_strain(made, path + "/blind/cell.h5", path + "/validity.csv", 0.01, localized));
+
   const auto refused = [&](const std::string &of, const std::string &file, const double limit)
   { return tests::refusal([&]() { valid_strain(made, of, file, limit, localized); }); };
   EXPECT_NE(refused(cell, "", 0.02).find("and limit 0.02; found the limits 0.01, 0.05"),
             std::string::npos);
   EXPECT_NE(
     refused(path + "/none/cell.h5", path + "/validity.csv", 0.01)
-      .find("holds the cells all, bad, dots, other; expected one cell, or one that is named"),
+      .find(
+        "holds the cells all, bad, blind, dots, other; expected one cell, or one that is named"),
     std::string::npos);
   EXPECT_NE(refused(cell, path + "/no.csv", 0.01).find("no.csv: no such file"), std::string::npos);
 

@@ -126,9 +126,13 @@ def first_sentence(sheets):
         of = by_state(gains_of(sheets, POSITION)[1])
         where = "any load" if len(nothing) == len(sheets) else listed(nothing)
         rest = ""
-        for state, words in (("smaller", "elsewhere it makes"), ("larger", "it makes")):
-            if state in of:
-                rest += f"; {words} their error {times(of[state])} times {state}"
+        if "smaller" in of:
+            rest += f"; elsewhere it makes their error {times(of['smaller'])} times smaller"
+        if "larger" in of:
+            rest += (
+                f"; with all terms their error is {times(of['larger'])} times that of the better of"
+                " the sheets without it"
+            )
         return (
             f"{bent}, positions gain nothing beyond the error bars from the deflection of the cell under"
             f" {where}{rest}."

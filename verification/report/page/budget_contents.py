@@ -281,6 +281,8 @@ def validity_text(row):
     error bar leaves open in brackets.
     """
     low, high = row["largest_strain_lower"], row["largest_strain_upper"]
+    if row["relation"] == "?":
+        return "not known"
     if row["relation"] == "-":
         return "–" if math.isnan(high) else f"– (up to {two(high)} %)"
     if row["relation"] == ">":

@@ -85,12 +85,15 @@ def sentences(cell):
 
 
 def rows_of(cell, variant, reference, method):
-    """Rows of drape.csv with an error, in the order of time."""
+    """Rows of drape.csv with an error, in the order of time: of that variant of the coarse cloth,
+    or of the method's own cloth.
+    """
     rows = [
         row
         for row in cell.errors
         if not math.isnan(row["error_mean_m"])
-        and (row["variant"], row["reference"], row["method"]) == (variant, reference, method)
+        and row["variant"] in (variant, method)
+        and (row["reference"], row["method"]) == (reference, method)
     ]
     return sorted(rows, key=lambda row: row["time_s"])
 
