@@ -17,7 +17,7 @@ namespace homespun::homogenization
 struct CellKeys
 {
   std::string mesh;
-  std::string length_unit = "0.01";
+  std::string length_unit;
   std::string young, poisson, thickness, density, orthotropic, layers;
   std::string lattice = "auto", tolerance = "auto", slits = "refused";
 

@@ -190,17 +190,17 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
     add(reading.findings, "key", faults);
     return keys;
   }
+  const auto unit = numbers(keys.length_unit);
   if (found.count("Length unit") == 0)
     faults.push_back(prm_file + ": key `Length unit` is missing; expected metres per mesh unit, "
                                 "such as `set Length unit = 0.01` of a mesh in centimetres");
-  const auto unit = numbers(keys.length_unit);
-  if (unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]))
+  else if (unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]))
     reading.metres_per_unit = (*unit)[0];
   else
     faults.push_back(prm_file + ": key `Length unit`: found `" + keys.length_unit +
                      "`; expected metres per mesh unit as one positive number like `0.01`" +
                      number_hint(keys.length_unit));
-  if (faults.empty() && trimmed(keys.mesh).empty())
+  if (trimmed(keys.mesh).empty())
     faults.push_back(prm_file + ": key `Mesh` is missing; expected the mesh of one cell");
   add(reading.findings, "key", faults);
   return keys;

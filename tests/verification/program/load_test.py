@@ -43,10 +43,13 @@ class Load(InFolder):
             self.assertAlmostEqual(mean * compliance[0, 0] / 1e-6, 1., delta=1e-6, msg=row)
 
     def test_a_cloth_that_is_turned_inside_out_is_no_level(self):
-        rows = self.load("--stress", "11=1e5", "--references", "linear,biot")
-        for row in rows:
-            self.assertGreater((1. + row["strain_11"]) * (1. + row["strain_22"]), 0., row)
-        claims = json.loads((self.folder / "run" / "verdicts.json").read_text())["verdicts"]
+        output = self.folder / "run"
+        result = run("periodic", "load", CHEVRON, "--stress", "11=1e5", "--references",
+                     "linear,biot", "--no-report", "--output", output)
+        self.assertIn(result.returncode, (1, 4), result.stderr)
+        for row in rows_of(output / "load.csv"):
+            self.assertGreater(1. + float(row["strain_22"]), 0., row)
+        claims = json.loads((output / "verdicts.json").read_text())["verdicts"]
         self.assertTrue(any("turned inside out" in claim["limit"] and claim["verdict"] != "PASS"
                             for claim in claims), claims)
 
