@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/lint/facets.h"
 
+#include "homogenization/cell/chi_strains.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "homogenization/lint/cell_lint.h"
 #include "meshes/plain/cross.h"
@@ -124,24 +125,6 @@ Eigen::Matrix3d frame_of(const Eigen::Vector2d &vector)
   return M;
 }
 
-/// The strains of the three loads in a triangle, e − eps(chi).
-Eigen::Matrix3d strain_in(const UnitCell &cell, const meshes::Chi &chi, const int t)
-{
-  const Eigen::RowVector3i corners = cell.mesh.triangles.row(t);
-  Eigen::Matrix2d sides;
-  Eigen::Matrix<double, 2, 6> change;
-  for (int k = 0; k < 2; ++k)
-  {
-    sides.row(k)  = cell.mesh.vertices.row(corners(k + 1)) - cell.mesh.vertices.row(corners(0));
-    change.row(k) = chi.row(corners(k + 1)) - chi.row(corners(0));
-  }
-  const Eigen::Matrix<double, 2, 6> gradient = sides.inverse() * change;
-  Eigen::Matrix3d strain                     = Eigen::Matrix3d::Identity();
-  for (int load = 0; load < 3; ++load)
-    strain.col(load) -= Eigen::Vector3d(gradient(0, 2 * load), gradient(1, 2 * load + 1),
-                                        gradient(1, 2 * load) + gradient(0, 2 * load + 1));
-  return strain;
-}
 } // namespace
 
 std::vector<Facet> facets_of(const UnitCell &cell)
@@ -180,7 +163,7 @@ std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell, const me
     for (const int t : {facet.inside, facet.outside})
       if (t >= 0)
       {
-        const Eigen::Matrix3d strain = M * strain_in(cell, chi, t);
+        const Eigen::Matrix3d strain = M * strains_in(cell.mesh, chi, t);
         const Mixed its              = mixed_of(t);
         stretch += its.k * strain.row(0);
         traction += its.f.trace() * (stiffness_in_frame(t) * strain).bottomRows<2>();

@@ -23,8 +23,8 @@ Lattice ordered(Vector one, Vector other)
     if ((*vector)(0) < 0.)
       *vector *= -1.;
   const double rise = std::abs(one(1)) / one.norm(), of_other = std::abs(other(1)) / other.norm();
-  constexpr double alike = 1e-7; // of a drawing that is symmetric about the x axis
-  if (of_other < rise - alike || (of_other < rise + alike && other(1) > one(1)))
+  // Where the drawing is symmetric about the x axis, rounding must not choose.
+  if (of_other < rise - image_tolerance || (of_other < rise + image_tolerance && other(1) > one(1)))
     std::swap(one, other);
   Lattice lattice;
   lattice.vectors << one, other;

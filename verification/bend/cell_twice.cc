@@ -2,7 +2,6 @@
 #include "verification/bend/cell_twice.h"
 
 #include "homogenization/bracket/bending_bracket.h"
-#include "homogenization/cell/corners.h"
 #include "meshes/plain/refine.h"
 #include "verification/cell/discretization_distance.h"
 
@@ -41,12 +40,8 @@ UnitCell refined_cell(const UnitCell &cell)
 /// Of the corners of a plate, which are those of its analogous membrane.
 double factor_of(const BendingCell &bent)
 {
-  const homogenization::Singularity corners =
-    homogenization::singularity_of(homogenization::corners_of(
-      bent.cell.mesh, bent.cell.lattice,
-      homogenization::analogous_membranes(bent.bending_stiffness_of_phase)));
-  return std::max(safety_unconfirmed,
-                  factor_of_bars(corners.exists ? std::min(2. * corners.strongest, 2.) : 2.));
+  const auto membranes = homogenization::analogous_membranes(bent.bending_stiffness_of_phase);
+  return std::max(safety_unconfirmed, factor_of_bars(order_of_p2(bent.cell, membranes, 2.)));
 }
 } // namespace
 

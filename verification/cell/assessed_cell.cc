@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/assessed_cell.h"
 
+#include "homogenization/cell/chi_strains.h"
 #include "verification/cell/algebraic_limit.h"
 #include "verification/cell/discretization_distance.h"
 #include "verification/cell/energy_order.h"
@@ -87,31 +88,12 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
           check_of_limit(cell, limit), check_of_measures(result.stiffness)};
 }
 
-/// e − eps(chi) in a triangle of the given mesh in which chi is linear, a column for each load.
-Eigen::Matrix3d strain_of(const meshes::Chi &chi, const UnitCell &cell, const int triangle)
-{
-  const Eigen::RowVector3i corners = cell.mesh.triangles.row(triangle);
-  Eigen::Matrix2d sides;
-  Eigen::Matrix<double, 2, 6> change;
-  for (int k = 0; k < 2; ++k)
-  {
-    sides.row(k)  = cell.mesh.vertices.row(corners(k + 1)) - cell.mesh.vertices.row(corners(0));
-    change.row(k) = chi.row(corners(k + 1)) - chi.row(corners(0));
-  }
-  const Eigen::Matrix<double, 2, 6> gradient = sides.inverse() * change; // row d: derivative by x_d
-  Eigen::Matrix3d strain                     = Eigen::Matrix3d::Identity();
-  for (int load = 0; load < 3; ++load)
-    strain.col(load) -= Eigen::Vector3d(gradient(0, 2 * load), gradient(1, 2 * load + 1),
-                                        gradient(1, 2 * load) + gradient(0, 2 * load + 1));
-  return strain;
-}
-
 /// The strains of a chi that is linear in each triangle.
 homogenization::UnitStrains strains_of(const meshes::Chi &chi, const UnitCell &cell)
 {
   homogenization::UnitStrains strains(cell.mesh.n_triangles(), 9);
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
-    strains.row(t) = strain_of(chi, cell, t).reshaped().transpose();
+    strains.row(t) = homogenization::strains_in(cell.mesh, chi, t).reshaped().transpose();
   return strains;
 }
 
@@ -124,7 +106,7 @@ Eigen::Matrix3d energies_of(const meshes::Chi &chi, const UnitCell &cell)
   Eigen::Matrix3d energy               = Eigen::Matrix3d::Zero();
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
-    const Eigen::Matrix3d strain = strain_of(chi, cell, t);
+    const Eigen::Matrix3d strain = homogenization::strains_in(cell.mesh, chi, t);
     energy += std::abs(areas(t)) * strain.transpose() *
               c[static_cast<std::size_t>(cell.mesh.material(t))] * strain;
   }

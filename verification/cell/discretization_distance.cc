@@ -21,8 +21,14 @@ double DiscretizationDistance::safety() const
 
 double order_of_p2(const homogenization::UnitCell &cell, const double highest)
 {
+  return order_of_p2(cell, cell.stiffness_of_phase(), highest);
+}
+
+double order_of_p2(const homogenization::UnitCell &cell,
+                   const std::vector<Eigen::Matrix3d> &stiffness_of_phase, const double highest)
+{
   const homogenization::Singularity corners = homogenization::singularity_of(
-    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
+    homogenization::corners_of(cell.mesh, cell.lattice, stiffness_of_phase));
   return corners.exists ? std::min(2. * corners.strongest, highest) : highest;
 }
 

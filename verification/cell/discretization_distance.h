@@ -5,6 +5,10 @@
 
 #include "homogenization/cell/unit_cell.h"
 
+#include <Eigen/Core>
+
+#include <vector>
+
 namespace homespun::verification
 {
 /// F where no convergence is seen.
@@ -39,6 +43,10 @@ constexpr double order_of_p2_energy = 4.;
 /// The order in which P2 displacements converge on uniformly refined meshes, in the mean: twice the
 /// exponent of the strongest corner of the cell, and at most `highest`.
 double order_of_p2(const homogenization::UnitCell &cell, double highest);
+
+/// The same, at the corners where phases of other stiffnesses meet.
+double order_of_p2(const homogenization::UnitCell &cell,
+                   const std::vector<Eigen::Matrix3d> &stiffness_of_phase, double highest);
 
 /// 1.25 / (1 - 2^-q): by it the distance from the once refined mesh is the error of the given one,
 /// with a margin (grid convergence index).

@@ -42,12 +42,21 @@ homogenization::EngineeringConstants bars_of_moduli(const Eigen::Matrix3d &S,
 }
 
 Verdict check_of_moduli(const std::string &stiffness, const Eigen::Matrix3d &S,
-                        const Eigen::Matrix3d &bars)
+                        const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
 {
+  const Eigen::Matrix3d bars                    = compliance_bars(lower, upper);
   const homogenization::EngineeringConstants of = bars_of_moduli(S, bars);
   const std::array<double, 5> said = {of.E1, of.E2, of.G12, of.nu12, of.nu21}, here = moduli_of(S);
   constexpr double round_off = 16. * std::numeric_limits<double>::epsilon();
   double reach               = 0.;
+  const auto ask             = [&](const Eigen::Matrix3d &compliance)
+  {
+    const std::array<double, 5> moduli = moduli_of(compliance);
+    for (std::size_t k = 0; k < said.size(); ++k)
+      if (const double distance = std::abs(moduli[k] - here[k]);
+          distance > 0. && !std::isinf(said[k]))
+        reach = larger(reach, distance / (said[k] + round_off * std::abs(here[k])));
+  };
   for (int end = 0; end < 16; ++end)
   {
     const auto step = [&](const int bit, const int i, const int j)
@@ -56,12 +65,10 @@ Verdict check_of_moduli(const std::string &stiffness, const Eigen::Matrix3d &S,
     for (int i = 0; i < 3; ++i)
       there(i, i) += step(i, i, i);
     there(0, 1) += step(3, 0, 1);
-    const std::array<double, 5> moduli = moduli_of(there);
-    for (std::size_t k = 0; k < said.size(); ++k)
-      if (const double distance = std::abs(moduli[k] - here[k]);
-          distance > 0. && !std::isinf(said[k]))
-        reach = larger(reach, distance / (said[k] + round_off * std::abs(here[k])));
+    ask(there);
   }
+  for (const Eigen::Matrix3d *const side : {&lower, &upper})
+    ask(homogenization::inverse_of(*side).value);
   return at_most("bracket.moduli", {{"stiffness", stiffness}}, reach, 1. + 1e-9);
 }
 } // namespace homespun::verification

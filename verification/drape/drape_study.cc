@@ -119,8 +119,9 @@ private:
   /// Of all cells before the first one moves.
   void check_variants(const UnitCell &cell)
   {
-    if (options.variants.size() < 2)
-      return; // the law of the cloth itself
+    if (options.variants.empty())
+      return;
+    drape.progress.milestone(cell.name + ": homogenization");
     std::vector<Verdict> told_later;
     const Eigen::Matrix3d C = homogenize(cell, needs(), told_later).result.stiffness;
     for (const std::string &variant : options.variants)
@@ -271,6 +272,8 @@ private:
                        {"present", scene.has(term)},
                        {scene.has(term) ? "parameters" : "why",
                         scene.has(term) ? what : "the scene does not list it"}});
+    for (nlohmann::ordered_json &cell : cell_descriptions)
+      cell["judged_method"] = judged_method(drape.output->error_rows(), cell["cell"]);
     for (const std::string &line : drape.output->worst_errors(main_variants))
       drape.progress.note(line);
     std::map<std::string, std::string> parameters = scene.echo;

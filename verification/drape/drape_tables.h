@@ -78,8 +78,8 @@ struct MotionRow
   double stretch      = not_a_number; ///< the largest [-]
   double step_seconds = not_a_number, upsampling_seconds = not_a_number; ///< medians so far [s]
   double force_x = not_a_number, force_y = not_a_number,
-         force_z = not_a_number; ///< to what is left after the steps' Newton iterations: with
-                                 ///< `linearly implicit`, one, 2 % of it in a fast motion [N]
+         force_z = not_a_number; ///< of a step of `linearly implicit` with the residual that its
+                                 ///< one Newton iteration leaves [N]
 
   template <typename Column>
   static void columns(Column &&column)

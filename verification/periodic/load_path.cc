@@ -37,8 +37,8 @@ LoadPath load_path(const CellAssembly &assembly, const LoadControl &control, con
       if (const Eigen::Matrix2d &F = state.gradient;
           !(F.determinant() > 0. && F(0, 0) > 0. && F(1, 1) > 0.))
       {
-        path.why = "the equilibrium that Newton's method found is turned inside out; a stress is "
-                   "one of a cloth, in N/m";
+        path.why = "the equilibrium that Newton's method found is a cloth turned inside out: is "
+                   "the stress in N/m?";
         return path;
       }
       path.last = state;

@@ -356,7 +356,8 @@ private:
       MarginPath finer = margin_path(*refined, control, strains, names);
       append(finer.rows);
       path.loss.strain_bar = finer.loss.strain_bar =
-        factor * std::abs(path.loss.strain - finer.loss.strain);
+        larger(factor * std::abs(path.loss.strain - finer.loss.strain),
+               larger(path.loss.apart(), finer.loss.apart()));
       append({path.loss, finer.loss});
     }
     else

@@ -6,6 +6,7 @@
 #include "verification/record/table.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -115,7 +116,8 @@ struct StabilityRow
   double acoustic = none;
   double held_to  = none; ///< largest strain that is stable up to the mesh [-]
   double lost_at  = none; ///< the strain of first loss is between that and this [-]
-  /// 1.25 |given - refined| / (1 - 2^-q), q the order of the energy that the corners leave.
+  /// 1.25 |given - refined| / (1 - 2^-q), q the order of the energy that the corners leave; not
+  /// less than |lost_at - held_to|.
   double strain_bar      = none;
   double energy_periodic = none; ///< per rest area [N/m]
   double energy          = none; ///< with the pattern [N/m]
@@ -124,6 +126,12 @@ struct StabilityRow
   double x = none, y = none;     ///< of the vertex in the periodic state [m]
   double u_real = none, u_imaginary = none; ///< along axis 1, the largest |(u, v)| is 1 [-]
   double v_real = none, v_imaginary = none; ///< along axis 2
+
+  /// Of a loss, how far the last held strain and the first lost one are apart.
+  double apart() const
+  {
+    return std::abs(lost_at - held_to);
+  }
 
   template <typename Column>
   static void columns(Column &&column)

@@ -264,7 +264,8 @@ std::vector<std::string> notes_on_margins(const std::vector<StabilityRow> &rows)
         "rounding of its factors.",
         "The strain of first loss lies between held_to and lost_at on its mesh; strain_bar is "
         "1.25 |given - refined| / (1 - 2^-q), q the order of the energy that the corners of the "
-        "cell leave, and knows nothing of the law.",
+        "cell leave, or how far held_to and lost_at are apart, whichever is more; it knows nothing "
+        "of the law.",
         "The zone and the mode are those of the given mesh just beyond the first loss, or else "
         "at the last strain that was reached."})
     notes.emplace_back(note);

@@ -109,8 +109,9 @@ std::vector<StrainRow> with_bases(const std::vector<StrainRow> &rows)
     if (row.is_reached() && row.method == main_method(rows, row))
     {
       const StrainRow *const base = base_of(rows, row);
-      (base != nullptr ? all : without).push_back(base != nullptr ? *base : row);
-      (base != nullptr ? all : without).back().method = base_method;
+      std::vector<StrainRow> &to  = base != nullptr ? all : without;
+      to.push_back(base != nullptr ? *base : row);
+      to.back().method = base_method;
     }
   // A level at which no base has an equilibrium ends the range of one that has it elsewhere.
   for (StrainRow &row : without)
@@ -155,22 +156,18 @@ std::vector<StrainRow> without_any_level(const std::vector<StrainRow> &rows,
   return missing;
 }
 
-/// Without any level no range is known.
-ValidityRow row_of_none(const StrainRow &one, const std::string &measure, const double limit,
-                        const double first_unreached)
+/// A row without a range: nothing is known.
+ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit)
 {
-  return {one.cell,
-          one.load,
-          one.reference,
-          one.method,
-          measure,
-          limit,
-          "?",
-          ValidityRow::none,
-          ValidityRow::none,
-          ValidityRow::none,
-          "no equilibrium of reference or coarse cloth was found at strain " +
-            short_text(first_unreached) + ", the smallest"};
+  ValidityRow row;
+  row.cell      = one.cell;
+  row.load      = one.load;
+  row.reference = one.reference;
+  row.method    = one.method;
+  row.measure   = measure;
+  row.limit     = limit;
+  row.relation  = "?";
+  return row;
 }
 
 ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit,
@@ -202,17 +199,13 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
     note += std::string(note.empty() ? "" : "; ") + "the error bar is not known at every level";
   const auto shown = [](const Crossing &crossed)
   { return crossed.relation == '-' ? ValidityRow::none : crossed.strain; };
-  return {one.cell,
-          one.load,
-          one.reference,
-          one.method,
-          measure,
-          limit,
-          std::string(1, best.relation),
-          shown(best),
-          shown(low),
-          shown(high),
-          note};
+  ValidityRow row = row_of(one, measure, limit);
+  row.relation    = std::string(1, best.relation);
+  row.largest     = shown(best);
+  row.lower       = shown(low);
+  row.upper       = shown(high);
+  row.note        = note;
+  return row;
 }
 } // namespace
 
@@ -276,9 +269,9 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
         continue; // a sheet whose reference does not fluctuate has no such measure
       for (const double limit : measure.limits)
       {
-        ValidityRow row = levels.empty() ? row_of_none(one, measure.name, limit, first_unreached)
+        ValidityRow row = levels.empty() ? row_of(one, measure.name, limit)
                                          : row_of(one, measure.name, limit, levels);
-        if (row.relation == ">" && std::isfinite(first_unreached))
+        if ((row.relation == ">" || row.relation == "?") && std::isfinite(first_unreached))
           row.note += std::string(row.note.empty() ? "" : "; ") +
                       "no equilibrium of reference or coarse cloth was found at strain " +
                       short_text(first_unreached);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/refusal.h"
+#include "verification/program/command_line.h"
 #include "verification/record/checksum.h"
 #include "verification/record/run_folder.h"
 #include "verification/record/verdict.h"
@@ -228,6 +229,25 @@ TEST(exact_exit_status, the_worst_wins)
   EXPECT_EQ(status_of({held}), good);
   EXPECT_EQ(status_of({held, open}), claim_open);
   EXPECT_EQ(status_of({open, failed, held}), claim_failed);
+}
+
+TEST(exact_exit_status, faults_of_homespun_itself_blame_nobody_else)
+{
+  const auto told_of = [](const Action &action, const int status)
+  {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(guarded(action, true), status);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(
+    told_of([]() -> int { throw meshes::BadInput("cell.prm: key"); }, exit_status::bad_input),
+    "homespun: cell.prm: key\n");
+  const std::string own = told_of([]() -> int { throw std::logic_error("/D is not symmetric"); },
+                                  exit_status::program_fault);
+  EXPECT_NE(own.find("a fault of homespun itself"), std::string::npos) << own;
+  EXPECT_NE(own.find("/D is not symmetric"), std::string::npos) << own;
+  EXPECT_NE(told_of([]() -> int { throw std::bad_alloc(); }, exit_status::bad_input).find("memory"),
+            std::string::npos);
 }
 } // namespace
 } // namespace homespun::verification

@@ -93,7 +93,7 @@ class DrapePageTest(PageTest):
                 "error_mean_per_cell": error / 0.01,
                 "displacement_mean_m": moved,
             }
-            return SimpleNamespace(errors=[row])
+            return SimpleNamespace(errors=[row], info={"judged_method": method})
 
         def sentence(moved, error=2e-3):
             return drape_tables.error_sentence(cell_of(moved, error), "biot", "biot")

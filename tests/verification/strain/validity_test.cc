@@ -9,6 +9,20 @@
 
 using namespace homespun::verification;
 
+namespace
+{
+/// Of `localized`, far within every limit.
+StrainRow small_error(const char *const load, const double strain)
+{
+  StrainRow row       = {"cell", load, strain, "biot", "localized", 4, 32, 100};
+  row.mean            = 1e-6 * strain;
+  row.per_cell        = 1e-4 * strain;
+  row.per_fluctuation = 1e-3 * strain;
+  row.bar             = 1e-8 * strain;
+  return row;
+}
+} // namespace
+
 TEST(exact_validity, the_limit_of_a_power_law_is_found)
 {
   std::vector<double> x, y;
@@ -109,13 +123,8 @@ TEST(exact_validity, what_was_not_reached_or_is_not_known_is_no_range)
 
 TEST(exact_validity, a_load_without_any_level_has_rows_that_say_so)
 {
-  StrainRow row       = {"cell", "periodic-12", 0.6, "biot", "localized", 4, 32, 100};
-  row.mean            = 1e-6;
-  row.per_cell        = 1e-4;
-  row.per_fluctuation = 1e-3;
-  row.bar             = 1e-8;
-  const std::vector<ValidityRow> found =
-    validity_rows({row, {"cell", "shear-frame", 0.6, "biot", unreached}});
+  const std::vector<ValidityRow> found = validity_rows(
+    {small_error("periodic-12", 0.6), {"cell", "shear-frame", 0.6, "biot", unreached}});
   ASSERT_EQ(found.size(), 10u);
   for (const ValidityRow &one : found)
   {
@@ -132,14 +141,9 @@ TEST(exact_validity, a_load_without_any_level_has_rows_that_say_so)
 
 TEST(exact_validity, a_law_that_is_lost_before_the_smallest_strain_leaves_no_range)
 {
-  StrainRow row       = {"cell", "strip-1", 0.05, "yarn", "localized", 4, 32, 100};
-  row.mean            = 1e-6;
-  row.per_cell        = 1e-4;
-  row.per_fluctuation = 1e-3;
-  row.bar             = 1e-8;
-  LevelRow lost       = {"cell", "strip-1", "yarn", 0.05};
+  LevelRow lost = {"cell", "strip-1", "biot", 0.05};
   lost.lost = 3, lost.least = -1.;
-  const ValidityRow found = validity_rows({row}, {lost})[3];
+  const ValidityRow found = validity_rows({small_error("strip-1", 0.05)}, {lost})[3];
   EXPECT_EQ(found.relation, "?");
   EXPECT_TRUE(std::isnan(found.largest));
   EXPECT_NE(found.note.find("loses ellipticity at 2.5 %"), std::string::npos) << found.note;
@@ -151,11 +155,8 @@ TEST(exact_validity, the_range_of_a_base_ends_where_no_base_has_an_equilibrium)
   for (const double strain : {0.001, 0.01, 0.1})
     for (const char *const method : {"affine", "localized", "full-micro", "full"})
     {
-      StrainRow row       = {"cell", "strip-1", strain, "biot", method, 4, 32, 100};
-      row.mean            = 1e-6 * strain;
-      row.per_cell        = 1e-4 * strain;
-      row.per_fluctuation = 1e-3 * strain;
-      row.bar             = 1e-8 * strain;
+      StrainRow row = small_error("strip-1", strain);
+      row.method    = method;
       if (strain == 0.01 && std::string(method) == "full-micro")
         row.mean = row.per_cell = row.per_fluctuation = row.bar = StrainRow::none;
       rows.push_back(row);

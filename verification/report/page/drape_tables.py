@@ -98,15 +98,9 @@ def rows_of(cell, variant, reference, method):
     return sorted(rows, key=lambda row: row["time_s"])
 
 
-def judged_method(cell):
-    """`localized`, or of a run without it the last method that is not `affine`."""
-    methods = [row["method"] for row in cell.errors if row["method"] != "affine"]
-    return "localized" if "localized" in methods else methods[-1] if methods else "affine"
-
-
 def error_sentence(cell, variant, reference):
     """Mean error at the end and its maximum over time, with the reference's own error bar."""
-    method = judged_method(cell)
+    method = cell.info.get("judged_method", "localized")
     rows = rows_of(cell, variant, reference, method)
     if not rows:
         return f"Its error against {escape(reference)} is not known."
