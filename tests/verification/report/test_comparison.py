@@ -346,8 +346,8 @@ class ComparisonTest(PageTest):
                     "a",
                     place="a",
                     verdicts=[
-                        verdict(f"{cell}: slope", outcome, 2.0, "2")
-                        for cell, outcome in (("one", "PASS"), ("two", "FAIL"))
+                        verdict(f"{cell}: slope", outcome, 2.0, limit)
+                        for cell, outcome, limit in (("one", "PASS", "3"), ("two", "FAIL", "1"))
                     ]
                     + [verdict("one: alone", "PASS")],
                 )
@@ -361,6 +361,7 @@ class ComparisonTest(PageTest):
         (alone,) = block["held"]  # of one run alone
         self.assertEqual((alone["claim"], alone["entries"][1]), ("…: alone", None))
         self.assertTrue(block["rows"][0]["advice"])
+        self.assertEqual(block["rows"][0]["limit"], "one: 3; two: 1")
 
     def test_names_of_versions_are_short_and_differ(self):
         self.assertEqual(

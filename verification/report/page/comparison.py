@@ -58,8 +58,8 @@ def comparison_contents(results, gallery):
         (
             moduli_figure(matrices["C"], matrices["D"]),
             "comparison-moduli",
-            "Moduli along each direction, of Cᴴ in uniaxial tension and of Dᴴ in the bending of"
-            " narrow strips.",
+            "Moduli along each direction, of Cᴴ in uniaxial tension"
+            + (" and of Dᴴ in the bending of narrow strips." if matrices["D"] else "."),
         ),
         (
             cells_figure(list(cells.values())),
@@ -294,6 +294,17 @@ def claims_side_by_side(results, subjects):
     return [one for one in blocks if one["rows"] or one["held"]]
 
 
+def limit_of(verdicts):
+    """The limit of a claim, where runs have one each all of them.
+
+    @param verdicts {name of a run: its verdict}
+    """
+    limits = {name: tables.shown(verdict.get("limit", "")) for name, verdict in verdicts.items()}
+    if len(set(limits.values())) == 1:
+        return next(iter(limits.values()))
+    return "; ".join(f"{name}: {limit}" for name, limit in limits.items())
+
+
 def block(table, columns, names):
     """Claims that do not hold in each column, those whose verdicts differ first; and those that do.
     """
@@ -320,7 +331,7 @@ def block(table, columns, names):
                     )
                     for c in columns
                 ],
-                "limit": tables.shown(worst.get("limit", "")),
+                "limit": limit_of({names[k]: some[c] for k, c in enumerate(columns) if c in some}),
             }
         )
     rows.sort(key=lambda row: not row["differs"])
