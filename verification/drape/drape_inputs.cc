@@ -182,13 +182,19 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
 void check_variant(const Scene &scene, const UnitCell &cell, const Eigen::Matrix3d &stiffness,
                    const Law law)
 {
+  const Law of_coarse = homogenized_law(law, stiffness);
+  if (of_coarse != law)
+    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + cell.file +
+                           " is alike in all directions and has no yarns; expected a cell whose "
+                           "C^H has axes, or the law " +
+                           name_of(of_coarse));
   try
   {
     shell::law_terms(law, CoarseStart(scene, cell).mesh, nullptr, {stiffness}, 0., {});
   }
   catch (const meshes::BadInput &fault)
   {
-    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + cell.name + ": " +
+    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + cell.file + ": " +
                            fault.what());
   }
 }

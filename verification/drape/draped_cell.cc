@@ -162,12 +162,6 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
     , law(law)
     , side(std::sqrt(cell.lattice.area()))
 {
-  const Law of_effective = homogenized_law(law, homogenized.stiffness);
-  if (of_effective != law)
-    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + cell.file +
-                           " is alike in all directions and has no yarns; expected a cell whose "
-                           "C^H has axes, or the law " +
-                           name_of(of_effective));
   effective        = {law, {homogenized.stiffness}, {homogenized.areal_density}};
   phases.stiffness = cell.stiffness_of_phase();
   for (const Eigen::Matrix3d &C : phases.stiffness) // biot where no phase has yarns

@@ -97,7 +97,7 @@ class BadScenes(SceneCase):
         result = run("drape", self.scene({"Cells": path}), "--quick", "--variants", "biot,yarn",
                      "--no-report", "--output", self.folder / "out")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--variants yarn: C^H of layered", result.stderr)
+        self.assertIn(f"--variants yarn: C^H of {path} is alike", result.stderr)
         self.assertNotIn("frame", result.stderr)
 
     def test_references_that_lack_a_term(self):
