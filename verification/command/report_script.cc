@@ -46,8 +46,13 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
     std::fprintf(stderr, "Making the page %s/report.html: drawing takes a minute or more\n",
                  output.c_str());
   if (run_report_script("report.py", arguments) != 0)
-    throw meshes::BadInput("the report could not be made, see above; the results are in " +
-                           folders[0] + ": mend them, then `homespun report " + folders[0] + "`");
+  {
+    std::string all;
+    for (const std::string &folder : folders)
+      all += " " + folder;
+    throw meshes::BadInput("no page was made, see above; when that is mended, `homespun report" +
+                           all + "` makes it");
+  }
   if (!quiet)
     std::printf("Report: %s/report.html\n", output.c_str());
 }

@@ -8,7 +8,8 @@ too, from stored results.
 
 The second form writes one figure for a paper and no page. Of several cells, or of several versions of one cell, the page compares what they share.
 
-Exit status: 0 the report is written; 2 the results cannot be used, one message per fault on stderr.
+Exit status: 0 the report is written; 2 the results cannot be used, one message per fault on stderr;
+130 Ctrl-C.
 FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or not at all.
 """
 import argparse
@@ -17,6 +18,7 @@ import errno
 import gc
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import warnings
@@ -128,6 +130,8 @@ def main(arguments=None):
         "--quiet", action="store_true", help="say nothing unless something is wrong"
     )
     options = parser.parse_args(arguments)
+    # Ctrl-C reaches the processes that draw, too: they end without a word.
+    os.register_at_fork(after_in_child=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     try:
         tells = not options.quiet and sys.stderr.isatty()
         with warnings.catch_warnings():
@@ -152,6 +156,9 @@ def main(arguments=None):
         for fault in error.faults:
             print(f"error: {fault}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("\nhomespun report: interrupted, no page was written", file=sys.stderr)
+        return 130
     except Exception as error:  # pylint: disable=broad-exception-caught
         if not comes_of_a_full_disk(error):
             raise

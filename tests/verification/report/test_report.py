@@ -2,10 +2,15 @@
 """Tests of the page of `homespun strain`: /usr/bin/python3 -m unittest discover -s
 tests/verification/report
 """
+import glob
 import json
 import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
+import time
 import unittest
 
 import h5py
@@ -49,6 +54,19 @@ class ReportTest(PageTest):
             page,
         )
         self.assertEqual(sorted(os.listdir(self.output)), ["figures", "report.html"])
+
+    def test_ctrl_c_leaves_no_folder_and_no_traceback(self):
+        script = os.path.join(report_path.REPORT, "report.py")
+        process = subprocess.Popen(  # pylint: disable=consider-using-with
+            [sys.executable, "-B", script, self.folder, "--output", self.output],
+            start_new_session=True, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not glob.glob(f"{self.output}/.report-*/figures/*.svg"):
+            time.sleep(0.01)  # until several processes draw
+        os.killpg(process.pid, signal.SIGINT)
+        told = process.communicate()[1]
+        self.assertEqual(process.returncode, 130, told)
+        self.assertEqual(told, "\nhomespun report: interrupted, no page was written\n")
+        self.assertFalse(os.path.exists(self.output))
 
     def test_missing_pieces_are_named_and_the_report_is_written(self):
         self.remove(
