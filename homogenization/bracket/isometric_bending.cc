@@ -2,6 +2,7 @@
 #include "homogenization/bracket/isometric_bending.h"
 
 #include "homogenization/bracket/plate.h"
+#include "meshes/plain/drawn_lattice.h"
 #include "meshes/plain/index.h"
 
 #include <algorithm>
@@ -123,14 +124,23 @@ isometric_bending(const PlateMesh &mesh, const meshes::Lattice &lattice,
   return {ruling, std::atan2(n(1), n(0)), mean.harmonic_mean()};
 }
 
-std::vector<std::array<int, 2>> short_rulings()
+std::vector<std::array<int, 2>> short_rulings(const meshes::Lattice &lattice)
 {
-  constexpr int most                      = 4;
-  std::vector<std::array<int, 2>> rulings = {{1, 0}};
+  constexpr int most = 4;
+  // The shortest basis in that of the lattice.
+  const Eigen::Matrix2i basis =
+    (meshes::reduced(lattice).vectors * lattice.vectors.inverse()).array().round().cast<int>();
+  std::vector<std::array<int, 2>> rulings;
+  const auto add = [&](const int p, const int q)
+  {
+    const Eigen::RowVector2i ruling = Eigen::RowVector2i(p, q) * basis;
+    rulings.push_back({ruling(0), ruling(1)});
+  };
+  add(1, 0);
   for (int p = -most; p <= most; ++p)
     for (int q = 1; q <= most; ++q)
       if (std::gcd(p, q) == 1)
-        rulings.push_back({p, q});
+        add(p, q);
   return rulings;
 }
 } // namespace homespun::homogenization

@@ -35,6 +35,7 @@ isometric_bending(const PlateMesh &mesh, const meshes::Lattice &lattice,
                   const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material,
                   const std::array<int, 2> &ruling);
 
-/// The rulings of few lattice vectors, no number above four: along others the means differ little.
-std::vector<std::array<int, 2>> short_rulings();
+/// The rulings of few of the shortest lattice vectors, no number above four, whatever basis the
+/// lattice is given by: along others the means differ little.
+std::vector<std::array<int, 2>> short_rulings(const meshes::Lattice &lattice);
 } // namespace homespun::homogenization

@@ -184,7 +184,7 @@ RolledCell rolled_cell(const TorusMesh &mesh,
     (energies.topLeftCorner<6, 6>() -
      coupling * energies.bottomRightCorner<3, 3>().inverse() * coupling.transpose()) /
     mesh.lattice.area();
-  for (const std::array<int, 2> &ruling : short_rulings())
+  for (const std::array<int, 2> &ruling : short_rulings(mesh.lattice))
     rolled.isometric.push_back(
       isometric_bending(plate.mesh, mesh.lattice, bending_stiffness_of_material, ruling));
   rolled.mean_stiffness = mean_of_materials(mesh, bending_stiffness_of_material);

@@ -51,11 +51,15 @@ Eigen::Matrix3d laminate_stiffness(const meshes::TriangleMesh &mesh, const meshe
       int a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
       const auto of = [&](const int v)
       { return classes.representative[static_cast<std::size_t>(v)]; };
-      if (of(a) > of(b))
+      Eigen::RowVector2i offset = classes.offset.row(b) - classes.offset.row(a);
+      // From the lower class; between two images of one vertex, along the lattice.
+      if (of(a) > of(b) || (of(a) == of(b) && (offset(0) < 0 || (offset(0) == 0 && offset(1) < 0))))
+      {
         std::swap(a, b);
-      const Eigen::RowVector2i offset = classes.offset.row(b) - classes.offset.row(a);
-      const auto [other, is_new]      = seen.emplace(Edge{of(a), of(b), offset(0), offset(1)}, t);
-      const Eigen::RowVector2d edge   = mesh.vertices.row(b) - mesh.vertices.row(a);
+        offset = -offset;
+      }
+      const auto [other, is_new]    = seen.emplace(Edge{of(a), of(b), offset(0), offset(1)}, t);
+      const Eigen::RowVector2d edge = mesh.vertices.row(b) - mesh.vertices.row(a);
       if (!is_new && stiffness_at(other->second) != stiffness_at(t) && edge.norm() > along.norm())
         along = edge;
     }

@@ -156,11 +156,20 @@ struct GroupsOfMesh
     return names.at(number);
   }
 
+  /// Whether a group may be given by its number: not where another one is called that.
+  bool goes_by_number(const int number) const
+  {
+    const std::string text = std::to_string(number);
+    return std::none_of(names.begin(), names.end(),
+                        [&](const auto &other)
+                        { return other.first != number && other.second == text; });
+  }
+
   /// The values that a group is given by its name or by its number; nothing where there are none.
   const std::vector<double> *named(const GroupValues &values, const int number) const
   {
     auto entry = values.find(name_of(number));
-    if (entry == values.end())
+    if (entry == values.end() && goes_by_number(number))
       entry = values.find(std::to_string(number));
     return entry == values.end() ? nullptr : &entry->second;
   }
@@ -201,6 +210,10 @@ void check_names(const std::string &file, const GroupTables &tables, const Group
   std::vector<std::string> names;
   for (const int number : groups.present)
   {
+    if (groups.name_of(number) == std::to_string(number) && !groups.goes_by_number(number))
+      faults.push_back(file + ": group " + std::to_string(number) +
+                       " of the mesh has no name of its own, and another group is called `" +
+                       std::to_string(number) + "`; expected a name for each of them");
     names.push_back(groups.name_of(number));
     if (names.size() <= most)
       expected += (expected.empty() ? "`" : ", `") + names.back() + "`";
@@ -222,8 +235,8 @@ void check_names(const std::string &file, const GroupTables &tables, const Group
   for (const auto &[key, values] : of_key)
     for (const int number : groups.present)
       if (const std::string &name = groups.name_of(number);
-          name != std::to_string(number) && values->count(name) != 0 &&
-          values->count(std::to_string(number)) != 0)
+          name != std::to_string(number) && groups.goes_by_number(number) &&
+          values->count(name) != 0 && values->count(std::to_string(number)) != 0)
         faults.push_back(file + ": key `" + key + "`: group `" + name + "` is given by its name " +
                          "and by its number, " + std::to_string(number) + "; expected one of both");
 }

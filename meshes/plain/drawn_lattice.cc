@@ -34,7 +34,7 @@ Lattice ordered(Vector one, Vector other)
   return lattice;
 }
 
-/// The shortest basis of a lattice (Lagrange, Gauss).
+/// reduced() of two vectors.
 Lattice reduced(Vector one, Vector other)
 {
   while (true)
@@ -176,6 +176,11 @@ std::vector<Frame> frame_meant(const TriangleMesh &mesh)
   if (four.size() != 4 || !is_centrally_symmetric(four, nearly))
     return {};
   return {frame_of_parallelogram(four)};
+}
+
+Lattice reduced(const Lattice &lattice)
+{
+  return reduced(lattice.vectors.row(0), lattice.vectors.row(1));
 }
 
 bool is_same_lattice(const Lattice &one, const Lattice &other)

@@ -35,6 +35,9 @@ std::vector<Frame> frame_meant(const TriangleMesh &mesh);
 /// @return each once, whatever its basis: shortest vectors, ordered as those of a Frame
 std::vector<Lattice> lattices_of_outline(const TriangleMesh &mesh, double tolerance);
 
+/// The shortest basis of a lattice (Lagrange, Gauss), ordered as that of a Frame.
+Lattice reduced(const Lattice &lattice);
+
 /// Whether two bases span the same lattice.
 bool is_same_lattice(const Lattice &one, const Lattice &other);
 } // namespace homespun::meshes

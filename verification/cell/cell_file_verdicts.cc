@@ -60,10 +60,11 @@ Eigen::Matrix3d energies_of(const StoredCell &stored, const UnitCell &cell)
   for (std::size_t t = 0; t < stored.n_triangles; ++t)
   {
     const int *const corner = &stored.triangles[3 * t];
-    // x = X (1, y1, y2) at the corners gives the gradient of what is linear between them.
+    // x = X (1, y1, y2) at the corners gives the gradient of what is linear between them; from the
+    // first corner, so that it does not matter where the cell was drawn.
     Eigen::Matrix3d ones_and_places;
     for (int k = 0; k < 3; ++k)
-      ones_and_places.row(k) << 1., stored.vertex(corner[k]);
+      ones_and_places.row(k) << 1., stored.vertex(corner[k]) - stored.vertex(corner[0]);
     const Eigen::Matrix3d coefficients = ones_and_places.inverse();
     Eigen::Matrix3d strain             = Eigen::Matrix3d::Identity();
     for (int load = 0; load < 3; ++load)

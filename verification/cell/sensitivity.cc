@@ -77,14 +77,17 @@ public:
       std::any_of(inputs.begin(), inputs.end(),
                   [&](const UncertainInput &other)
                   { return other.group == group && other.constant == *its_constant; });
-    const double range = range_of(homogenization::trimmed(entry.substr(equal + 1)),
-                                  std::abs(homogenization::value_of(**phase, *its_constant)));
+    // An angle has no size: its zero is where the axes were drawn.
+    const double value = *its_constant == MaterialConstant::angle
+                           ? 0.
+                           : std::abs(homogenization::value_of(**phase, *its_constant));
+    const double range = range_of(homogenization::trimmed(entry.substr(equal + 1)), value);
     if (is_known)
       faults.push_back("--uncertain: `" + name + "` is given twice; expected once");
     else if (!(range > 0.) || !std::isfinite(range))
       faults.push_back("--uncertain: found `" + entry +
-                       "`; expected a positive range: a percentage of a value that is not zero, or "
-                       "a number in " +
+                       "`; expected a positive range: a percentage of a value that is neither zero "
+                       "nor an angle, or a number in " +
                        homogenization::unit_of(*its_constant));
     else
       inputs.push_back({group, *its_constant, range});

@@ -28,6 +28,15 @@ struct ResolvedLevel
   Stability stability;
   double seconds_stability;
   std::map<std::string, ErrorBar> error_bars = {}; ///< by method [m]
+
+  /// @param has_left whether reference and bars are of two equilibria
+  void forget_bars(const bool has_left)
+  {
+    if (!has_left)
+      return;
+    bar        = {unknown_length, unknown_length, unknown_length, unknown_length};
+    error_bars = {};
+  }
 };
 
 /// The methods on a sheet, and what their errors are measured by.

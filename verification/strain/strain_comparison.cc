@@ -232,7 +232,8 @@ std::vector<std::string> notes_of(const ReferenceStep &fine, const Stability sta
   std::vector<std::string> notes;
   if (stability == Stability::left)
     notes.emplace_back("the equilibrium that was found first is not stable; it was left along its "
-                       "mode, and the stable one that was found is compared");
+                       "mode, and the stable one that was found is compared; from here on "
+                       "no error bar is known and no budget: both are measured on the other one");
   if (stability == Stability::unstable)
     notes.emplace_back(
       "the equilibrium that is compared is not stable, and no stable one was found "

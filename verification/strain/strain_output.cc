@@ -4,6 +4,7 @@
 #include "verification/method/method.h"
 #include "verification/record/error_norms.h"
 #include "verification/record/number_text.h"
+#include "verification/reference/fine_reference.h"
 #include "verification/strain/budget/budget_tables.h"
 #include "verification/strain/gains.h"
 #include "verification/strain/validity.h"
@@ -98,6 +99,18 @@ bool StrainOutput::has_errors(const StrainLevel &level, const std::string &metho
 bool StrainOutput::is_unreached(const StrainLevel &level) const
 {
   return has_errors(level, unreached);
+}
+
+bool StrainOutput::has_left(const StrainLevel &level) const
+{
+  const std::string left = name_of(Stability::left), reference = name_of(level.law);
+  return std::any_of(levels.rows().begin(), levels.rows().end(),
+                     [&](const LevelRow &row)
+                     {
+                       return row.cell == level.cell && row.load == level.load &&
+                              row.reference == reference && row.strain <= level.strain &&
+                              row.stability == left;
+                     });
 }
 
 void StrainOutput::write_step(LevelRow step)

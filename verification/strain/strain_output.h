@@ -56,6 +56,10 @@ public:
 
   bool is_unreached(const StrainLevel &level) const;
 
+  /// Whether the reference was left for another equilibrium, at a level or below it: bars, P2 and
+  /// the second code stay on the branch that was left.
+  bool has_left(const StrainLevel &level) const;
+
   /// @param step with the keys of its level; what is known of it stays
   void write_step(LevelRow step);
 

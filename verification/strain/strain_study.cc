@@ -271,7 +271,7 @@ private:
         const StrainLevel level = {cell.name, load.name, law, options.strains[k]};
         is_missing[k]           = !output->is_complete(level) ||
                         (has_budget(options, load) && !output->is_unreached(level) &&
-                         budget->row_is_missing(level));
+                         !output->has_left(level) && budget->row_is_missing(level));
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
     std::vector<double> missing;
@@ -313,25 +313,27 @@ private:
     Stability stability = Stability::every_triangle;
     const double seconds_stability =
       seconds_of([&]() { stability = of.reference.stabilize(fine); });
-    if (is_root)
-      for (const std::string &note : notes_of(fine, stability))
-        output->write_note(level, note);
+    const bool has_left = stability == Stability::left ||
+                          answer_of_root(is_root && output->has_left(level), communicator);
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
     bool is_solved = false;
     on_root(communicator,
             [&]()
             {
+              for (const std::string &note : notes_of(fine, stability))
+                output->write_note(level, note);
               try
               {
-                const ResolvedLevel resolved = {of.sheet,
-                                                fine,
-                                                of.reference.n_dofs(),
-                                                n_ranks,
-                                                of.uncertainty.at(law, strain),
-                                                stability,
-                                                seconds_stability,
-                                                of.uncertainty.of_errors(law, strain)};
+                ResolvedLevel resolved = {of.sheet,
+                                          fine,
+                                          of.reference.n_dofs(),
+                                          n_ranks,
+                                          of.uncertainty.at(law, strain),
+                                          stability,
+                                          seconds_stability,
+                                          of.uncertainty.of_errors(law, strain)};
+                resolved.forget_bars(has_left);
                 solved    = compare_methods(options, level, resolved, of.methods, *output);
                 is_solved = true;
               }
@@ -343,7 +345,8 @@ private:
               }
             });
     is_solved = answer_of_root(is_solved, communicator);
-    if (is_solved && of.has_budget && answer_of_root(budget->row_is_missing(level), communicator))
+    if (is_solved && of.has_budget && !has_left &&
+        answer_of_root(budget->row_is_missing(level), communicator))
       note(level,
            "error budget: ", budget->measure(law, strain, fine.positions, of.reference, solved));
     return is_solved;

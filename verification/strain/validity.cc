@@ -76,7 +76,7 @@ struct Level
 /// @param smallest strain of the ladder
 void end_at_loss(ValidityRow &row, const double smallest)
 {
-  if (!std::isfinite(row.elliptic_up_to) || row.relation == "-")
+  if (!std::isfinite(row.elliptic_up_to))
     return;
   if (row.upper > row.elliptic_up_to)
     row.upper = row.elliptic_up_to;

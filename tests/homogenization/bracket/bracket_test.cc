@@ -67,6 +67,32 @@ TEST(exact_bracket, laminates_close_to_round_off_because_both_spaces_hold_the_ex
   }
 }
 
+TEST(exact_bracket, two_linear_triangles_have_no_unknowns_and_the_mean_of_their_stiffnesses)
+{
+  const std::vector<Eigen::Matrix3d> stiffness = tests::contrasting(10.);
+  tests::BracketCell cell =
+    tests::bracket_cell(tests::skewed_lattice(), 1, 1, stiffness, odd_pattern);
+  cell.mesh.material         = Eigen::Vector2i(0, 1);
+  const Bracket b            = bracketed(cell, 1);
+  const Eigen::Matrix3d mean = 0.5 * (stiffness[0] + stiffness[1]);
+  EXPECT_LT(relative_difference(b.upper, mean), 1e-11);
+  EXPECT_TRUE(is_ordered(b.lower, b.upper));
+}
+
+TEST(exact_bracket, a_laminate_of_one_element_along_its_layers_has_the_closed_form_of_its_mesh)
+{
+  for (const bool is_along_2 : {false, true})
+  {
+    const tests::BracketCell cell = tests::bracket_cell(
+      tests::square_lattice(1.), is_along_2 ? 4 : 1, is_along_2 ? 1 : 4, tests::contrasting(10.),
+      [&](const double f1, const double f2) { return (is_along_2 ? f1 : f2) < 0.5 ? 0 : 1; });
+    const Bracket b = bracketed(cell, 1);
+    EXPECT_LT(
+      relative_difference(b.upper, laminate_stiffness(cell.mesh, cell.lattice, cell.stiffness)),
+      1e-11);
+  }
+}
+
 TEST(exact_bracket, off_axis_anisotropic_laminates_close_at_any_angle_of_the_cell)
 {
   const std::vector<Eigen::Matrix3d> layers = {

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace homespun;
@@ -158,7 +159,7 @@ TEST(exact_rolled_cell, squares_without_stretching_share_along_diagonals_alone)
                                           tests::plate(1e7, nu, thickness)};
   const PlateMesh mesh(glued(cell.mesh, cell.lattice));
   const double soft = D[0](0, 0), hard = D[1](0, 0); // isotropic: in every direction
-  for (const std::array<int, 2> &ruling : short_rulings())
+  for (const std::array<int, 2> &ruling : short_rulings(cell.lattice))
   {
     // Where both numbers are odd the means go in a straight line from one end to the other and
     // back, a triangle wave; else each ruling meets as many soft as hard squares.
@@ -169,6 +170,30 @@ TEST(exact_rolled_cell, squares_without_stretching_share_along_diagonals_alone)
     EXPECT_NEAR(isometric_bending(mesh, cell.lattice, D, ruling).stiffness, limit, 1e-11 * hard)
       << ruling[0] << ", " << ruling[1];
   }
+}
+
+TEST(invariant_rolled_cell, short_rulings_are_those_of_the_cloth_whatever_its_basis)
+{
+  const auto directions = [](const meshes::Lattice &lattice)
+  {
+    std::vector<double> angles;
+    for (const std::array<int, 2> &ruling : short_rulings(lattice))
+    {
+      const Eigen::RowVector2d along = Eigen::RowVector2d(ruling[0], ruling[1]) * lattice.vectors;
+      const double angle             = std::atan2(along(1), along(0)) + 1e-9;
+      angles.push_back(std::fmod(angle + 2. * M_PI, M_PI));
+    }
+    std::sort(angles.begin(), angles.end());
+    return angles;
+  };
+  meshes::Lattice lattice          = tests::skewed_lattice();
+  const std::vector<double> before = directions(lattice);
+  lattice.vectors.row(1) += 5. * lattice.vectors.row(0);
+  lattice.vectors.row(0) -= 2. * lattice.vectors.row(1);
+  const std::vector<double> after = directions(lattice);
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k)
+    EXPECT_NEAR(before[k], after[k], 1e-10);
 }
 
 TEST(invariant_rolled_cell, rulings_do_not_depend_on_the_basis_of_the_lattice_or_its_origin)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/material.h"
 
+#include "homogenization/cell/cell_keys.h"
+#include "homogenization/cell/cell_mesh_file.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -116,4 +119,39 @@ TEST(tripwire_material, impossible_constants_are_named)
   EXPECT_TRUE(says(isotropic("p", 1., 0.3, 1., -2.), "density -2 kg/m^3"));
   EXPECT_TRUE(says({"p", 1., 4., 0.6, 1., 0., 1., 1.}, "Poisson's ratio 0.6"));
   EXPECT_TRUE(says({"p", 1., 4., 0.3, -1., 0., 1., 1.}, "shear modulus -1 Pa"));
+}
+
+namespace
+{
+/// Young's moduli of the groups 1 and 2 of a mesh.
+std::vector<double> moduli(const std::string &young, const std::map<std::string, int> &names,
+                           std::vector<std::string> &faults)
+{
+  CellMeshFile file;
+  file.mesh.material  = Eigen::Vector2i(1, 2);
+  file.number_of_name = names;
+  CellKeys keys;
+  keys.young     = young;
+  keys.poisson   = "0.3";
+  keys.thickness = "1e-3";
+  keys.density   = "400";
+  std::vector<double> found;
+  for (const Phase &phase : assign_phases("cell.prm", keys, file, faults))
+    found.push_back(phase.E1);
+  return found;
+}
+} // namespace
+
+TEST(exact_phases, a_number_that_is_the_name_of_another_group_is_that_group)
+{
+  using Moduli = std::vector<double>;
+  std::vector<std::string> faults;
+  const std::map<std::string, int> crossed = {{"2", 1}, {"1", 2}};
+  EXPECT_EQ(moduli("1e6, 1: 1e7", crossed, faults), (Moduli{1e6, 1e7}));
+  EXPECT_EQ(moduli("1: 1e6, 2: 1e7", crossed, faults), (Moduli{1e7, 1e6}));
+  EXPECT_EQ(moduli("1: 1e6, hard: 1e7", {{"soft", 1}, {"hard", 2}}, faults), (Moduli{1e6, 1e7}));
+  EXPECT_TRUE(faults.empty());
+  moduli("1e6, 2: 1e7", {{"2", 1}}, faults);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].find("group 2 of the mesh has no name of its own"), std::string::npos);
 }

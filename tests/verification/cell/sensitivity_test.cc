@@ -208,7 +208,8 @@ TEST(tripwire_input_bars, unknown_phases_and_constants_are_named)
               .find("has no constant `E`; expected one of E1, E2, nu12, G12, "
                     "thickness, angle"),
             std::string::npos);
-  for (const char *text : {"film.E=", "film.E=-3%", "film.E=nan", "film.E=2 3", "film.E=inf"})
+  for (const char *text :
+       {"film.E=", "film.E=-3%", "film.E=nan", "film.E=2 3", "film.E=inf", "yarn.angle=10%"})
     EXPECT_NE(refusal(text).find("expected a positive range"), std::string::npos) << text;
   EXPECT_NE(refusal("film").find("expected `group.constant=range`"), std::string::npos);
   EXPECT_NE(refusal("film.E=1%,film.E=2%").find("given twice"), std::string::npos);

@@ -7,6 +7,7 @@ import re
 import shutil
 import unittest
 
+from broken_cells_test import Cell
 from cli import COARSE, LAYERED, InFolder, rows_of, run
 
 SMALL = ["--cells", "4", "--no-budget", "--no-runtime"]
@@ -25,6 +26,32 @@ class Gains(InFolder):
     def page(self):
         text = (self.folder / "run" / "report.html").read_text(encoding="utf-8")
         return re.sub("<[^>]*>", " ", text[text.index("<h1>"):text.index("<nav")])
+
+    def test_no_bar_is_known_where_the_reference_left_the_state_that_bars_are_of(self):
+        cell = Cell()  # a checkerboard whose soft squares buckle under shear
+        cell.points = [[i / 4, j / 4, 0.] for j in range(5) for i in range(13)]
+        squares = [(i, j) for j in range(4) for i in range(12)]
+        corners = [(13 * j + i, 13 * j + i + 1, 13 * j + i + 14, 13 * j + i + 13)
+                   for i, j in squares]
+        cell.triangles = [[a, *rest] for a, b, c, d in corners for rest in ((b, c), (c, d))]
+        cell.groups = [1 + (i // 2 + j // 2) % 2 for i, j in squares for _ in range(2)]
+        cell.keys |= {"Lattice vectors": "3 0; 0 1", "Young's modulus": "soft: 1e6, hard: 1e9"}
+        result = run("strain", cell.write(self.folder), "--cells", 4, "--references", "biot",
+                     "--loads", "periodic-12", "--methods", "affine,localized", "--strains",
+                     "0.001,0.05,0.1", "--no-runtime", "--no-report", "--output",
+                     self.folder / "run")
+        self.assertEqual(result.returncode, 4, result.stderr)
+        left = {row["strain"]: row["reference_stability"]
+                for row in rows_of(self.folder / "run" / "levels.csv") if not row["part"]}
+        self.assertEqual(left["0.05"], "left")
+        for row in rows_of(self.folder / "run" / "strain.csv"):
+            for bar in ("error_bar_m", "reference_uncertainty_m"):
+                self.assertEqual(row[bar] == "", row["strain"] != "0.001", row)
+        again = run("strain", self.folder / "cell.prm", "--cells", 4, "--references", "biot",
+                    "--loads", "periodic-12", "--methods", "affine,localized", "--strains",
+                    "0.001,0.05,0.1", "--no-runtime", "--no-report", "--output",
+                    self.folder / "run", "--resume")
+        self.assertEqual(again.returncode, 4, again.stderr)
 
     def test_of_one_material_nothing_is_claimed_of_up_sampling(self):
         text = LAYERED.read_text().replace("hard: 1e7", "hard: 1e6")

@@ -149,6 +149,26 @@ TEST(exact_validity, a_law_that_is_lost_before_the_smallest_strain_leaves_no_ran
   EXPECT_NE(found.note.find("loses ellipticity at 2.5 %"), std::string::npos) << found.note;
 }
 
+TEST(exact_validity, an_error_too_large_at_the_smallest_strain_reaches_no_further_than_the_law)
+{
+  std::vector<StrainRow> rows;
+  for (const double strain : {0.01, 0.05})
+  {
+    rows.push_back(small_error("strip-1", strain)); // by its bar it may be small
+    rows.back().mean = rows.back().per_cell = rows.back().per_fluctuation = 2.;
+    rows.back().bar                                                       = 2. - 1e-6;
+  }
+  LevelRow rest = {"cell", "strip-1", "biot", 0.01}, lost = {"cell", "strip-1", "biot", 0.03};
+  rest.lost = 0, rest.least = 1.;
+  lost.lost = 1, lost.least = -1.;
+  const double loss = 0.02;
+  for (const ValidityRow &row : validity_rows(rows, {rest, lost}))
+  {
+    EXPECT_EQ(row.relation, "-");
+    EXPECT_NEAR(row.upper, loss, 1e-12);
+  }
+}
+
 TEST(exact_validity, the_range_of_a_base_ends_where_no_base_has_an_equilibrium)
 {
   std::vector<StrainRow> rows;

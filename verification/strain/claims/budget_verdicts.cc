@@ -10,6 +10,7 @@
 #include "verification/strain/budget/second_code.h"
 #include "verification/strain/claims/strain_verdicts.h"
 #include "verification/strain/strain_cases.h"
+#include "verification/strain/validity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,9 +91,20 @@ std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &lev
          percent("unexplained-bar") + " of the error";
 }
 
+/// What a claim is that does not hold at a level: open beyond the loss of the law, where P2 and a
+/// second code may come to other equilibria.
+Outcome outcome_of_miss(const std::vector<LevelRow> &levels, const BudgetRow &level)
+{
+  return level.strain > elliptic_up_to(levels, level.cell, level.load, level.reference)
+           ? Outcome::inconclusive
+           : Outcome::fail;
+}
+
 /// @param bar_of_reference per cell side; not a number where there is none
+/// @param missed see outcome_of_miss()
 void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
-                 const double bar_of_reference, std::vector<Verdict> &verdicts)
+                 const double bar_of_reference, const Outcome missed,
+                 std::vector<Verdict> &verdicts)
 {
   const Words words = words_of(level);
   const auto with   = [&](const char *name, const Word &word)
@@ -105,12 +117,12 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
   if (is_zero(total, level.strain))
   {
     verdicts.push_back(judged("budget.zero", with("limit", solved_to),
-                              is_zero(sum, level.strain) ? Outcome::pass : Outcome::fail,
+                              is_zero(sum, level.strain) ? Outcome::pass : missed,
                               sum / level.strain));
     return;
   }
-  const auto outcome_of = [](const double value, const bool holds) {
-    return !std::isfinite(value) ? Outcome::inconclusive : holds ? Outcome::pass : Outcome::fail;
+  const auto outcome_of = [missed](const double value, const bool holds) {
+    return !std::isfinite(value) ? Outcome::inconclusive : holds ? Outcome::pass : missed;
   };
   const double unexplained = mean_of(rows, level, "unexplained") / total,
                bar         = mean_of(rows, level, "unexplained-bar") / total;
@@ -124,7 +136,7 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
                                                            "decides nothing"
                                                          : "")),
              !is_known           ? Outcome::inconclusive
-             : unexplained > bar ? Outcome::fail
+             : unexplained > bar ? missed
              : bar > widest_bar  ? Outcome::inconclusive
                                  : Outcome::pass,
              unexplained));
@@ -233,11 +245,16 @@ void at_judged_levels(const std::vector<StrainRow> &strain_rows, const Judge &ju
 
 std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                                      const std::vector<BudgetRow> &budget_rows,
-                                     const std::vector<double> &strains)
+                                     const std::vector<double> &strains,
+                                     const std::vector<LevelRow> &levels)
 {
   std::vector<Verdict> verdicts;
-  at_judged_levels(strain_rows, [&](const BudgetRow &level)
-                   { judge_level(budget_rows, level, bar_of(strain_rows, level), verdicts); });
+  at_judged_levels(strain_rows,
+                   [&](const BudgetRow &level)
+                   {
+                     judge_level(budget_rows, level, bar_of(strain_rows, level),
+                                 outcome_of_miss(levels, level), verdicts);
+                   });
   for (const auto &[of_case, its_strains] : budgeted_cases(strain_rows))
   {
     if (!Load(of_case.load).is_periodic()) // whose motion no law decides
@@ -266,7 +283,8 @@ std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &stra
   return verdicts;
 }
 
-std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows)
+std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows,
+                                          const std::vector<LevelRow> &levels)
 {
   std::vector<Verdict> verdicts;
   for (const CrossCheckRow &row : rows)
@@ -274,9 +292,11 @@ std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows
     const bool is_sheet = row.what == "sheet";
     if (!is_sheet && row.what != "p2-cell")
       continue;
-    const Outcome answer  = !std::isfinite(row.distance) ? Outcome::inconclusive
-                            : row.distance <= agreement  ? Outcome::pass
-                                                         : Outcome::fail;
+    const Outcome answer =
+      !std::isfinite(row.distance) ? Outcome::inconclusive
+      : row.distance <= agreement
+        ? Outcome::pass
+        : outcome_of_miss(levels, {row.cell, row.load, row.strain, row.reference});
     const std::string why = row.fault.empty() ? "" : "; " + row.fault;
     verdicts.push_back(
       is_sheet

@@ -22,9 +22,11 @@ namespace homespun::verification
 /// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as
 /// strain squared, slope 2 +- 0.1, or is zero to what the solvers leave at each.
 /// @param strains that the study was asked for: what they cannot decide is no claim
+/// @param levels of which some may lie beyond the loss of the law: what does not hold there is open
 std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                                      const std::vector<BudgetRow> &budget_rows,
-                                     const std::vector<double> &strains);
+                                     const std::vector<double> &strains,
+                                     const std::vector<LevelRow> &levels = {});
 
 /// Judges at the same levels whether strain.csv has of `localized` the error that the budget
 /// splits: two ways from the same positions to one number.
@@ -32,7 +34,9 @@ std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &stra
                                               const std::vector<BudgetRow> &budget_rows);
 
 /// Judges each row of a second code: two codes that solve one discrete problem agree.
-std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows);
+/// @param levels as of budget_verdicts()
+std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows,
+                                          const std::vector<LevelRow> &levels = {});
 
 /// At the judged levels: parts that are larger than the error and cancel, and how far the
 /// homogenized sheet that counts as resolved is so. Ready sentences.

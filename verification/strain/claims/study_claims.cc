@@ -121,9 +121,9 @@ std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStud
     for (const StrainRow &row : output.strain.rows())
       if (has_budget(options, Load(row.load)))
         with_budget.push_back(row);
-    add(budget_verdicts(with_budget, rows, options.strains));
+    add(budget_verdicts(with_budget, rows, options.strains, output.levels.rows()));
     add(error_agreement_verdicts(with_budget, rows));
-    add(second_code_verdicts(output.checks->rows()));
+    add(second_code_verdicts(output.checks->rows(), output.levels.rows()));
     add(energy_verdicts(output.checks->rows()));
   }
   add(verdicts_of_nested_forces(output.uncertainty.rows()));

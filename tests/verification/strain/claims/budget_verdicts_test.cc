@@ -269,6 +269,23 @@ TEST(tripwire_budget, an_error_bar_that_does_not_cover_the_distance_from_p2_is_n
             Outcome::fail);
 }
 
+TEST(exact_budget, beyond_the_loss_of_the_law_what_does_not_hold_is_open)
+{
+  std::vector<StrainRow> rows = strain_rows(strains);
+  for (StrainRow &row : rows)
+    row.uncertainty = 1e-12;
+  LevelRow lost = {"cell", "strip-2", "biot", 1e-4};
+  lost.lost = 1, lost.least = -1.;
+  const auto covers = [&](const std::vector<LevelRow> &levels)
+  { return verdict_with(budget_verdicts(rows, ladder(strains), strains, levels), "covers"); };
+  EXPECT_EQ(covers({lost}).outcome, Outcome::inconclusive);
+  lost.strain = 1.;
+  EXPECT_EQ(covers({lost}).outcome, Outcome::fail);
+  const CrossCheckRow apart = {"cell", "strip-2", 0.7, "biot", "sheet", 1e-3};
+  EXPECT_EQ(second_code_verdicts({apart}, {lost})[0].outcome, Outcome::inconclusive);
+  EXPECT_EQ(second_code_verdicts({apart})[0].outcome, Outcome::fail);
+}
+
 TEST(tripwire_budget, an_error_of_another_size_than_the_budget_splits_is_noticed)
 {
   const double strain        = 0.01;
