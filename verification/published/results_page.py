@@ -6,7 +6,6 @@ results_page.py FOLDER PAGE README
 Errors, gains, where a method loses, widths of brackets, claims, and the runs behind them. What the
 numbers mean is told in guides/findings.md.
 """
-import json
 import pathlib
 import re
 import sys
@@ -209,17 +208,8 @@ def open_weaves(rows):
     )
 
 
-def remarks_in(folder):
-    """{revision: what is to be said of it} of a folder of published tables."""
-    return json.loads((pathlib.Path(folder) / "revisions.json").read_text(encoding="utf-8"))
-
-
-def page(tables, remarks=()):
-    """The whole page.
-
-    @param remarks {revision: what is said beside it}
-    """
-    remarks = dict(remarks)
+def page(tables):
+    """The whole page."""
     rows, brackets, claims = (tables[f"{name}.csv"] for name in ("errors", "brackets", "claims"))
     out = [NOTICE, "# Results\n", ABOUT, "## Gains in short\n", SHORT, gains(rows)]
     for name, its in sets(rows).items():
@@ -258,8 +248,7 @@ def page(tables, remarks=()):
         "The fingerprint of inputs, options and revision of each run, and the revision of the"
         " program.\n",
         table(["cell", "run", "revision"],
-              [[f"`{row['cell']}`", row["run"],
-                ", ".join(filter(None, (row["revision"], remarks.get(row["revision"]))))]
+              [[f"`{row['cell']}`", row["run"], row["revision"]]
                for row in {row["cell"]: row for row in rows}.values()], 3),
     ]
     return "\n".join(out)
@@ -269,7 +258,7 @@ def main(folder, path, *others):
     """Writes the page of the tables in a folder, and the table of gains in other texts."""
     path, tables = pathlib.Path(path), read_tables(folder)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(tables, remarks_in(folder)), encoding="utf-8")
+    path.write_text(page(tables), encoding="utf-8")
     for other in map(pathlib.Path, others):
         text = other.read_text(encoding="utf-8")
         other.write_text(with_gains(text, tables["errors.csv"]), encoding="utf-8")

@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -82,15 +83,17 @@ class PublishedBendTest(unittest.TestCase):
 class TextsTest(unittest.TestCase):
     """What texts say of the tables in words."""
 
-    def test_a_revision_that_has_a_remark_stands_beside_it_and_in_a_table(self):
-        remarks = results_page.remarks_in(PUBLISHED)
-        page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-        for revision, remark in remarks.items():
-            cells = {row["cell"] for row in read_tables(PUBLISHED)["errors.csv"]
-                     if row["revision"] == revision}
-            self.assertTrue(cells, f"revisions.json has {revision}, and no row of errors.csv")
-            for cell in cells:
-                self.assertRegex(page, rf"(?m)^\| `{cell}` \| \w+ \| {revision}, {remark} \|$")
+    def test_every_revision_is_in_the_history(self):
+        def git(*words):
+            return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True,
+                                  check=False)
+
+        if git("rev-parse", "--is-shallow-repository").stdout.strip() != "false":
+            self.skipTest("no history here")
+        for name, rows in read_tables(PUBLISHED).items():
+            for revision in {row["revision"] for row in rows if row.get("revision")}:
+                self.assertEqual(git("merge-base", "--is-ancestor", revision, "HEAD").returncode,
+                                 0, f"{name}: {revision}")
 
     def test_the_front_page_counts_operators_in_every_case_that_is_clamped_as_in_training(self):
         nearer = {True: 0, False: 0}  # by more than both bars, or not
