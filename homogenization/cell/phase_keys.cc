@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -329,7 +330,7 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
       data += (data.empty() ? "`" : ", `") + name + "`";
     faults.push_back(
       file + ": the mesh " + keys.mesh +
-      (data.empty()
+      (data.empty() || std::filesystem::path(keys.mesh).extension() == ".msh"
          ? " has no physical groups, so that no triangle has a material; expected one "
            "per material: in Gmsh `Physical Surface(\"ground\", 1) = {...};`"
          : " has no groups, so that no triangle has a material: its cell data are " + data +

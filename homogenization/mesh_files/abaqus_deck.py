@@ -54,6 +54,7 @@ class Deck:
     def __init__(self, text):
         self.points, self.elements, self.sets = {}, {}, {}
         self.own_set, self.elements_of = {}, {}  # sets of *ELEMENT, either way
+        self.spelling = {}  # names that differ in capitals alone are one: the first one is shown
         for keyword, parameters, lines in sections(text):
             refuse_rules(keyword, parameters, lines)
             if keyword == "node":
@@ -64,10 +65,14 @@ class Deck:
             elif keyword == "element":
                 self.add_elements(parameters, lines)
             elif keyword == "elset":
-                members = self.sets.setdefault(parameters.get("elset", ""), [])
+                members = self.sets.setdefault(self.name(parameters.get("elset", "")), [])
                 members += map(generated, lines) if "generate" in parameters else [
-                    range(int(field), int(field) + 1) if field.isdigit() else field
+                    range(int(field), int(field) + 1) if field.isdigit() else self.name(field)
                     for fields in lines for field in fields if field]
+
+    def name(self, text):
+        """Of a set, as it was written first."""
+        return text and self.spelling.setdefault(text.lower(), text)
 
     @staticmethod
     def put_new(what, those, number, value):
@@ -89,7 +94,7 @@ class Deck:
             if len(corners) < int(flat[1]):
                 raise Refusal(f"element {number} has {len(corners)} corners; {WHOLE}")
             self.put_new("element", self.elements, number, corners)
-            self.own_set[number] = parameters.get("elset")
+            self.own_set[number] = self.name(parameters.get("elset"))
             self.elements_of.setdefault(self.own_set[number], []).append(number)
 
     def members(self, name, seen):

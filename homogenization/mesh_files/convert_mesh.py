@@ -146,12 +146,25 @@ def groups_by_sets(mesh):
     return [numbers[a:b] for a, b in zip(first_of_block, first_of_block[1:])], names
 
 
+def angles_of(mesh):
+    """Cell data `angle` of each cell, by block; None where there are none."""
+    there = [name for name in mesh.cell_data if name.lower() == "angle"]
+    if not there and any(name.lower() == "angle" for name in mesh.point_data):
+        raise Refusal("found `angle` at the points; expected cell data, degrees for each element: "
+                      "in ParaView, Point Data to Cell Data")
+    found = data_called(mesh, {"angle"})
+    if there and not found:
+        raise Refusal(f"found cell data `{there[0]}` with several components; expected one number "
+                      "for each element, degrees from the x axis")
+    return next(iter(found.values()), None)
+
+
 def of_meshio(read):
     """A Mesh of meshio's."""
     groups, names = groups_by_array(read)
     if groups is None:
         groups, names = groups_by_sets(read)
-    angles = list(data_called(read, {"angle"}).values())
+    angles = angles_of(read)
     mesh = Mesh([[*map(float, x), 0., 0.][:3] for x in read.points])
     for b, block in enumerate(read.cells):
         if block.type in NEEDLESS:
@@ -159,10 +172,9 @@ def of_meshio(read):
         if block.type not in CORNERS or block.data.shape[1:] != (CORNERS[block.type],):
             raise Refusal(f"holds elements of meshio's type `{block.type}`; {STRAIGHT_AND_FLAT}")
         mesh.add(block.data.tolist(), [whole(group) for group in groups[b]],
-                 [float(angle) for angle in angles[0][b]] if angles else None)
+                 None if angles is None else [float(angle) for angle in angles[b]])
     mesh.number_of_name = {name: n for name, n in names.items() if n in set(mesh.groups) and n > 0}
-    mesh.other_data = [name for name in read.cell_data
-                       if name.lower() not in GROUP_ARRAYS | {"angle"}]
+    mesh.other_data = sorted(set(read.cell_data) - set(data_called(read, GROUP_ARRAYS | {"angle"})))
     return mesh
 
 

@@ -211,7 +211,7 @@ TEST(exact_cell_mesh_file, abaqus_sets_may_stand_anywhere_and_hold_others)
     head + "*ELSET, ELSET=soft\nleft, right\n*ELSET, ELSET=left, GENERATE\n1, 7, 2\n"
            "*ELSET, ELSET=right\n2, 4, 6, 8\n*ELSET, ELSET=hard, GENERATE\n9, 2000000000, 1\n");
   expect_same("of-elements.inp",
-              head + "*ELSET, ELSET=hard\nSurface2\n*ELSET, ELSET=soft\nSurface1\n");
+              head + "*ELSET, ELSET=hard\nSurface2\n*ELSET, ELSET=soft\nSURFACE1\n");
   expect_same("continued.inp",
               head + "*ELSET,\nELSET=hard, GENERATE\n9, 16\n*ELSET, ELSET=soft, GENERATE\n1, 8\n");
 }
@@ -315,6 +315,12 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
        vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\nCELL_DATA 1\nSCALARS phase int 1\n"
              "LOOKUP_TABLE default\n1\nSCALARS material int 1\nLOOKUP_TABLE default\n2\n",
        "`phase` and `material`, which differ");
+  const std::string one_cell = vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n";
+  says("e.vtk", one_cell + "CELL_DATA 1\nVECTORS angle double\n1 2 3\n",
+       "cell data `angle` with several components");
+  says("f.vtk",
+       one_cell + "POINT_DATA 6\nSCALARS angle double 1\nLOOKUP_TABLE default\n1 2 3 4 5 6\n",
+       "found `angle` at the points");
   says("a.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D8\n", "Abaqus' type `C3D8`");
   says("b.inp", "*NODE, SYSTEM=C\n1, 1, 90\n", "cylindrical or spherical coordinates");
   says("c.inp", "*SYSTEM\n0, 0, 0, 1, 1, 0\n", "found *system, which makes or moves points");
