@@ -8,7 +8,7 @@ import unittest
 import report_path  # noqa: F401
 from figures.load import load_figure, panels
 from made_up_run import verdict, write_run, write_table, write_verdicts
-from page.load_contents import pressed_sentence
+from page.load_contents import coarse_sentence, end_row, pressed_sentence
 from page_case import PageTest
 from read.load_results import LoadRun, Path
 
@@ -83,9 +83,30 @@ class LoadPage(PageTest):
                       page)
         self.assertIn("green: stress 11 of the coarse cloth differs from that of the cell by less"
                       " than the mesh may (0.417 %, the mesh 1.00 %)", page)
-        self.assertIn("110 ± 1.10", page)
+        self.assertIn("110.0 ± 1.1", page)
         self.assertIn("measured: lab", page)
         self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", "load-stripes.csv")))
+
+    def test_what_is_printed_of_an_end_holds_its_value_and_bar(self):
+        end = row("biot", "resolved", 5, 1000.0)
+        path = Path("a", "biot", "resolved", [end])
+        for value, bar, shown in ((12.345, 0.001, "12.3450 ± 0.0010"),
+                                  (35.195809, 2.78e-12, "35.1958 ± 9.1 × 10⁻⁶"),
+                                  (2.0, 3.0, "2.0 ± 3.0")):
+            end.update(stress_11_N_per_m=value, stress_11_bar_N_per_m=bar,
+                       strain_22=value / 100.0, strain_22_bar=bar / 100.0)
+            self.assertEqual([end_row(path)[k] for k in (4, 6)], [shown, shown])
+
+    def test_a_stress_of_another_sign_is_not_called_smaller(self):
+        paths = [Path("a", "biot", method, [row("biot", method, 5, modulus)])
+                 for method, modulus in (("resolved", 1000.0), ("coarse", -350.0))]
+        self.assertIn("biot: stress 11 of the coarse cloth is −35.0 N/m, of another sign than that of"
+                      " the cell, 100.0 ± 1.0 N/m.", coarse_sentence(paths))
+        self.assertFalse([one for one in coarse_sentence(paths) if "135 %" in one])
+        free = [Path("a", "biot", method, [{**row("biot", method, 5, 1000.0), "strain_22": strain}])
+                for method, strain in (("resolved", -0.03), ("coarse", 0.01))]
+        self.assertIn("strain 22 of the coarse cloth is 1.00 %, of another sign than that of the cell,"
+                      " −3.000 ± 0.030 %.", coarse_sentence(free)[1])
 
     def test_a_name_with_a_tag_in_it_is_shown_as_it_is(self):
         for file in ("load.csv", "study.json"):

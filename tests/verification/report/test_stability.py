@@ -104,7 +104,7 @@ class StabilityPage(PageTest):
         # Compression in the plane names wrinkling in the sentence itself.
         self.assertIn("(k = (1/2, 0)) (kept flat: a free sheet that is pressed in its plane wrinkles at"
                       " once); proved for the discrete cloth", page)
-        self.assertIn("first lost at −9.80 ± 1.00 %, to a pattern over 2 × 1 cells (k = (1/2, 0))",
+        self.assertIn("first lost at −9.8 ± 1.0 %, to a pattern over 2 × 1 cells (k = (1/2, 0))",
                       page)
         self.assertIn("open: the meshes disagree", page)
         self.assertIn("lost, proved", page)

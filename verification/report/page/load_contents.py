@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from figures.forces import SOLVED
 from figures.load import bar_key, known, load_figure
-from figures.style import three
+from figures.style import number_with_bar, three
 from read.load_results import COMPONENTS
 
 CAPTION = Markup(
@@ -19,23 +19,15 @@ CAPTION = Markup(
 )
 
 
-def with_bar(value, bar, factor=1.0):
-    if math.isnan(value):
-        return "–"
-    if math.isnan(bar) or not bar > 0:
-        return three(factor * value)
-    return f"{three(factor * value) if abs(value) > bar else '0'} ± {three(factor * bar)}"
-
-
 def end_row(path):
     """The last level of a path, component by component."""
     row = path.rows[-1]
     cells = [path.law, path.method, f"{three(100.0 * row['factor'])} %"]
     for c in COMPONENTS:
-        cells.append(with_bar(row[f"strain_{c}"], row[f"strain_{c}_bar"], 100.0))
+        cells.append(number_with_bar(100.0 * row[f"strain_{c}"], 100.0 * row[f"strain_{c}_bar"]))
     for c in COMPONENTS:
         key = f"stress_{c}_N_per_m"
-        cells.append(with_bar(row[key], row[bar_key(key)]))
+        cells.append(number_with_bar(row[key], row[bar_key(key)]))
     return cells + ["yes" if row["stable"] else "no"]
 
 
@@ -77,9 +69,9 @@ def coarse_sentence(paths):
             continue
         for c in found(paths):
             # What was prescribed is equal; the other one of the pair is what the cloths differ in.
-            what, y = f"stress {c}", f"stress_{c}_N_per_m"
+            what, y, factor, unit = f"stress {c}", f"stress_{c}_N_per_m", 1.0, "N/m"
             if a[bar_key(y)] == 0:
-                what, y = f"strain {c}", f"strain_{c}"
+                what, y, factor, unit = f"strain {c}", f"strain_{c}", 100.0, "%"
             size, bar = abs(a[y]), a[bar_key(y)]
             if size == 0 or not bar > 0:
                 continue
@@ -90,6 +82,11 @@ def coarse_sentence(paths):
                 sentences.append(
                     f"{law}: {what} of the coarse cloth differs from that of the cell by less than"
                     f" the mesh may ({three(100.0 * difference)} %, the mesh {three(100.0 * mesh)} %)."
+                )
+            elif a[y] * b[y] < 0.0:
+                sentences.append(
+                    f"{law}: {what} of the coarse cloth is {three(factor * b[y])} {unit}, of another"
+                    f" sign than that of the cell, {number_with_bar(factor * a[y], factor * bar)} {unit}."
                 )
             else:
                 sentences.append(

@@ -7,8 +7,7 @@ import math
 from markupsafe import Markup, escape
 
 from figures.stability import shown_way, stability_figure
-from figures.style import three
-from page.load_contents import with_bar
+from figures.style import number_with_bar, three
 
 CAPTION = Markup(
     "<code>{cell}</code>, {law}, {load}. Left: the margin β of the periodic state against strain, 1"
@@ -40,7 +39,7 @@ def first_loss(path, way):
                 " the discrete cloth"
             )
         return text + "."
-    where = with_bar((refined or given)["strain"], given["strain_bar"], 100.0)
+    where = number_with_bar(100.0 * (refined or given)["strain"], 100.0 * given["strain_bar"])
     if refined is None or refined["outcome"] != "lost":
         where = three(100.0 * given["strain"])
     if given["scale"] == "micro":
