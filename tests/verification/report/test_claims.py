@@ -40,6 +40,8 @@ class ClaimTest(unittest.TestCase):
         # What a method takes away is no reason for what it leaves.
         row = self.claim(text.replace("localized", "full"), "FAIL", "method")
         self.assertIn("most likely because cells are not small", row["why"])
+        # Nor is what is left against another law.
+        self.assertEqual(self.claim(text.replace("biot", "linear"), "FAIL", "method")["why"], "")
         row = self.claim(text.replace("localized is", "full is").replace("affine", "its base"),
                          "FAIL", "method", "closer-than.base")
         self.assertIn("without up-sampling", row["advice"])

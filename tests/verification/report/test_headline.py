@@ -18,7 +18,7 @@ class HeadlineTest(unittest.TestCase):
         """load -> (mark, change), as answer.line_of() has them."""
         return [
             {"load": load.replace("_", "-"), "mark": mark, "change": change, "gain": 0.5,
-             "left_per_cell": 1e-3, "bar_per_cell": 2e-4, "valid": "5 %", "why_open": ""}
+             "left_per_cell": 1e-3, "bar_per_cell": 2e-4, "valid": "5 %", "why_open": "", "lost": ""}
             for load, (mark, change) in marks.items()
         ]
 
@@ -56,6 +56,12 @@ class HeadlineTest(unittest.TestCase):
                       line["short"])
         self.assertNotIn("pay", line["short"])
         self.assertEqual((line["change"], line["mark"]), ("≈ 0 / open", "open"))
+        # What is left is said of the others alone.
+        lines[1].update(lost=lines[1]["why_open"], left_per_cell=0.5)
+        self.assertIn("at most 0.120 % of a cell side is left (periodic-11)",
+                      infinite_line(lines)["short"])
+        self.assertIn("Without edges what is left is open, because the law is lost. Up-sampling is"
+                      " open in periodic-22", infinite_line(lines[1:2])["short"])
 
     def test_a_method_of_ones_own_stands_beside_those_of_homespun(self):
         here = [{**row(error), "load": load, "method": method}

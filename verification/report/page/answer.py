@@ -73,7 +73,7 @@ def answer_of(results, name, gallery):
     if not strains:
         return None
     here = [row for row in rows if row["strain"] == strains[0]]
-    budget = levels([row for row in results.budget if row["cell"] == name])
+    budget = levels([b for b in results.budget if (b["cell"], b["reference"]) == (name, reference)])
     gains = [g for g in results.gains if (g["cell"], g["reference"]) == (name, reference)]
     bases = {
         (gain["load"], gain["method"]): gain["base"]
@@ -186,6 +186,7 @@ def line_of(load, affine, base, best, parts):
     line = {
         "load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": "",
         "paper": "", "short": f"{short}.", "beside": "", "gain": math.nan, "left_per_cell": after, "has_cause": None,
+        "lost": law_lost(best),
         "bar_per_cell": bar_of(best) * (after / left if left > 0.0 else 0.0), "why_open": "",
     }
     if after >= style.ROUND_OFF:
@@ -285,11 +286,13 @@ def beside_the_bar(best):
 
 def law_sentence(rows, forces, reference, strain):
     """What another law of the reference changes on sheets at a strain: the force of the resolved
-    sheet, and the error that the method of the page leaves against it; empty where there is none.
+    sheet, and the error that the method of the page leaves against it, where neither law is lost;
+    empty where there is none.
 
     @param rows of one cell with an error, forces rows of forces.csv of it
     """
     here = [r for r in rows if r["strain"] == strain and not style.is_infinite(r["load"])]
+    lost = {(r["reference"], r["load"]) for r in here if law_lost(r)}
     error, force = {}, {}
     for load in {row["load"] for row in here}:
         method = main_method(
@@ -305,15 +308,18 @@ def law_sentence(rows, forces, reference, strain):
     for law in schema.laws():
         if law in (reference, "linear"):
             continue
+        loads = style.ordered_loads(load for one, load in error if one == law)
+        is_open = [load for load in loads if {(law, load), (reference, load)} & lost]
         ratios = [
-            [of[law, load] / of[reference, load] for (one, load) in error
-             if one == law and of.get((reference, load), 0.0) > style.ROUND_OFF and (law, load) in of]
+            [of[law, load] / of[reference, load] for load in loads if load not in is_open
+             and of.get((reference, load), 0.0) > style.ROUND_OFF and (law, load) in of]
             for of in (force, error)
         ]
         if all(ratios):
             parts.append(
                 f"with {law} instead of {reference} sheets take {span(ratios[0])} times the force, and"
                 f" the error that is left is {span(ratios[1])} times as large"
+                + (f" (open in {listed(is_open)}, where a law is lost)" if is_open else "")
             )
     return f"What another law would change, at {percent(strain)}: {'; '.join(parts)}." if parts else ""
 

@@ -66,10 +66,11 @@ def cause_of(verdict, budget):
     case, strain = LEVEL.search(verdict["claim"]), STRAIN.search(verdict["claim"])
     if not case or not strain:
         return ""
-    known = levels([row for row in budget if row["cell"] == case[1]])
     value = float(strain[1]) / (100.0 if strain[2] else 1.0)
-    near = [key for key in known if key[0] == case[2] and abs(key[1] / value - 1.0) < 1e-6]
     method = METHOD.search(verdict["claim"])
+    known = levels([row for row in budget if row["cell"] == case[1]
+                    and (method is None or row["reference"] == method[2])])
+    near = [key for key in known if key[0] == case[2] and abs(key[1] / value - 1.0) < 1e-6]
     left = why(
         known[near[0]]["all"] if near else None,
         method[1] if method else PAPER,

@@ -97,8 +97,13 @@ def infinite_line(lines):
 
 
 def most_left(lines):
-    """How large the error that is left may be, its bar included, and under which load."""
-    known = [line for line in lines if line["left_per_cell"] >= style.ROUND_OFF]
+    """How large the error that is left may be, its bar included, and under which load, of those
+    whose law is not lost.
+    """
+    held = [line for line in lines if not line["lost"]]
+    if not held:
+        return "what is left is open, because the law is lost"
+    known = [line for line in held if line["left_per_cell"] >= style.ROUND_OFF]
     if not known:
         return "nothing is left, to round-off"
     most = {

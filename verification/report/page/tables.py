@@ -19,8 +19,8 @@ CHOSEN_STRAINS = (0.01, 0.1)
 
 
 def main_reference(rows):
-    """The law that the coarse solver's own energy matches, or the first there is."""
-    return schema.main_reference(style.ordered_references(row["reference"] for row in rows))
+    """The law that the coarse solver's own energy matches, or the first of the file."""
+    return schema.main_reference(row["reference"] for row in rows)
 
 
 def nearest_strains(rows):
