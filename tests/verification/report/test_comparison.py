@@ -13,7 +13,7 @@ from figures.comparison import comparison_figure, drawn
 from figures.plot_data import plain, rows_of
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
-from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
+from page.comparison import PART, claims_side_by_side, key_of, time_rows, validity_rows
 from page.differences import difference, differences
 from page.entries import entry_texts
 from page_case import PageTest
@@ -119,6 +119,12 @@ class ComparisonTest(PageTest):
         self.assertEqual(difference((100.0, 0.1), (98.0, 0.1)), "−2.00 ± 0.20 %")
         self.assertEqual(difference((100.0, math.nan), (130.0, math.nan)), "+30.0 %")
         self.assertEqual(difference((100.0, 1.0), None), "–")
+        for one, other, text in (((100.0, math.nan), (101.0, 3.0), "within the bars"),
+                                 ((101.0, 3.0), (100.0, math.nan), "within the bars"),
+                                 ((100.0, math.nan), (98.0, 0.1), "−2.00 ± 0.10 %"),
+                                 ((98.0, 0.0), (98.0, math.nan), "0")):
+            self.assertEqual(difference(one, other), f"{text} (one bar is not known)")
+        self.assertEqual(difference((98.0, math.nan), (98.0, math.nan)), "0")
         # Of what may be zero nothing is a percentage.
         self.assertEqual(difference((1e-20, 1e-10), (40.8, 5.2)), "from zero")
 
@@ -334,11 +340,17 @@ class ComparisonTest(PageTest):
         self.assertNotIn("side by side", self.page().split("</style>")[1].split("<h2")[0])
 
     def test_claims_are_matched_without_the_name_of_their_cell(self):
-        self.assertEqual(key_of("layered, strip-1: slope", "layered"), "CELL, strip-1: slope")
-        self.assertEqual(
-            key_of("homogenize cells/layered: gap", "layered"), "homogenize cells/CELL: gap"
-        )
-        self.assertIsNone(key_of("three-layered: slope", "layered"))
+        for claim, part, key in (
+            ("layered, strip-1: slope", "", "…, strip-1: slope"),
+            ("layered against biot: layered is", "", "… against biot: layered is"),
+            ("homogenize cells/layered: gap", PART, "homogenize cells/…: gap"),
+            ("strain: layered, strip-1: slope", PART, "strain: …, strip-1: slope"),
+            ("drape hang: layered against biot", PART, "drape hang: … against biot"),
+            ("three-layered: slope", "", None),
+            ("layered-wide: slope", "", None),
+            ("dots: layered as it is", "", None),
+        ):
+            self.assertEqual(key_of(claim, "layered", part), key, claim)
         found = results.Results(
             studies=[
                 results.Study(
@@ -362,6 +374,19 @@ class ComparisonTest(PageTest):
         self.assertEqual((alone["claim"], alone["entries"][1]), ("…: alone", None))
         self.assertTrue(block["rows"][0]["advice"])
         self.assertEqual(block["rows"][0]["limit"], "one: 3; two: 1")
+
+    def test_a_claim_is_of_the_cell_that_it_begins_with_whatever_other_words_it_has(self):
+        text = "the homogenized sheet at rest puts each vertex where it is"
+        for command, title in (("strain", ""), ("verify", "strain: ")):
+            verdicts = [verdict(f"{title}{cell}: {text}", outcome)
+                        for cell, outcome in (("dot", "FAIL"), ("sheet", "PASS"))]
+            study = results.Study("a", "a", SimpleNamespace(command=command), place="a",
+                                  verdicts=verdicts)
+            subjects = [versions.Subject(name, name, "a") for name in ("sheet", "dot")]
+            (block,) = claims_side_by_side(results.Results(studies=[study]), subjects)
+            (row,) = block["rows"]
+            self.assertEqual(row["claim"], f"{title}…: {text}")
+            self.assertEqual([entry["verdict"] for entry in row["entries"]], ["PASS", "FAIL"])
 
     def test_names_of_versions_are_short_and_differ(self):
         self.assertEqual(

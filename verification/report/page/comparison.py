@@ -22,6 +22,7 @@ from read.verdicts import MARKS, ORDER, WORDS
 from read.versions import tags
 
 VALIDITY_LIMIT = 0.01  # of a cell side
+PART = "(?:homogenize cells/|[a-z]+(?: [a-z]+)?: )"  # what a `verify` writes before a claim
 STEP_PARTS = (
     ("coarse solve", "seconds_coarse_solve"),
     ("up-sampling", "seconds_upsample"),
@@ -261,12 +262,14 @@ def time_rows(results, subjects):
     return rows
 
 
-def key_of(claim, cell):
+def key_of(claim, cell, part=""):
     """A claim without the name of its cell, by which those of two cells are matched; None where it
-    does not name it.
+    does not begin with it.
+
+    @param part pattern of what stands before the name
     """
-    key, found = re.subn(rf"(?<![\w-]){re.escape(cell)}(?![\w-])", "CELL", claim)
-    return key if found else None
+    found = re.match(rf"({part}){re.escape(cell)}(?=[:, ])", claim)
+    return f"{found[1]}…{claim[found.end():]}" if found else None
 
 
 def claims_side_by_side(results, subjects):
@@ -276,13 +279,15 @@ def claims_side_by_side(results, subjects):
     table, general = {}, {}
     names = sorted({s.cell for s in subjects}, key=len, reverse=True)
     for study, verdict in results.claims():
-        cell = next((name for name in names if key_of(verdict["claim"], name)), None)
+        keys = {name: key_of(verdict["claim"], name, PART if study.lists_all else "")
+                for name in names}
+        cell = next((name for name in names if keys[name]), None)
         if cell is None:
             general.setdefault(verdict["claim"], {})[study.place] = verdict
             continue
         subject = next((s for s in subjects if s.cell == cell and s.place == study.place), None)
         if subject:
-            known = table.setdefault(key_of(verdict["claim"], cell), {})
+            known = table.setdefault(keys[cell], {})
             # What a study and the homogenization beside it both say is said by the worse of them.
             one = known.get(subject.name)
             if one is None or ORDER[verdict["verdict"]] < ORDER[one["verdict"]]:
@@ -314,7 +319,7 @@ def block(table, columns, names):
         worst = min(some.values(), key=lambda verdict: ORDER[verdict["verdict"]])
         rows.append(
             {
-                "claim": claim.replace("CELL", "…"),
+                "claim": claim,
                 "differs": len(verdicts) > 1,
                 "holds": verdicts == {"PASS"},
                 "advice": "" if verdicts == {"PASS"} else advice_of(worst),

@@ -5,7 +5,7 @@ them, those that differ by more than their bars before those that do not.
 import math
 
 from figures import style
-from figures.style import bar_beside, beside_bar, percent, three
+from figures.style import number_with_bar, percent
 from page import tables
 from page.bars import bar_of
 from page.entries import ENTRIES, MICRO
@@ -13,6 +13,7 @@ from read.schema import main_method
 from read.stiffness import best_run, centre_and_bars
 
 SAME = 1e-6  # relative; what differs by less is the same to round-off
+UNKNOWN = " (one bar is not known)"
 
 
 def differences(results, subjects):
@@ -24,23 +25,16 @@ def differences(results, subjects):
             continue
         told = [difference(values[0], pair) for pair in values[1:]]
         if all(pair is None or is_same(values[0], pair) for pair in values[1:]):
-            same.append(name)
+            same.append(name + UNKNOWN * any(text.endswith(UNKNOWN) for text in told))
             continue
         largest = max(
             math.inf if not pair or is_zero(values[0]) else abs(pair[0] / values[0][0] - 1.0)
             for pair in values[1:]
         )
-        texts = ["–" if pair is None else with_bar(*pair) for pair in values]
+        texts = ["–" if pair is None else number_with_bar(*pair) for pair in values]
         rows.append((largest, [f"{name} [{unit}]", *texts, *told]))
     rows.sort(key=lambda row: -row[0])
     return {"rows": [row for _, row in rows], "same": same}
-
-
-def with_bar(value, bar):
-    if not bar > 0.0:
-        return three(float(value))
-    text = beside_bar(value, bar)
-    return f"{text} ± {bar_beside(text, value, bar)}"
 
 
 def is_same(one, other):
@@ -56,20 +50,19 @@ def is_zero(pair):
 
 
 def difference(one, other):
-    """+12 ± 3 %, from the first to another; the bar holds both."""
+    """+12 ± 3 %, from the first to another; the bar holds both, as far as they are known."""
     if other is None:
         return "–"
+    bars = [bar / abs(value) for value, bar in (one, other) if bar > 0.0 and value]
+    unknown = UNKNOWN * (math.isnan(one[1]) != math.isnan(other[1]))
     if is_same(one, other):
-        return "within the bars" if max(one[1], other[1]) > 0.0 else "0"
+        return ("within the bars" if one[1] > 0.0 or other[1] > 0.0 else "0") + unknown
     if is_zero(one):
         return "from zero"
     change = 100.0 * (other[0] / one[0] - 1.0)
-    bars = [
-        bar / abs(value) for value, bar in (one, other) if bar > 0.0 and value
-    ]
     bar = 100.0 * abs(other[0] / one[0]) * sum(bars)
     sign = "+" if change > 0.0 else "−"
-    return f"{sign}{with_bar(abs(change), bar)} %"
+    return f"{sign}{number_with_bar(abs(change), bar)} %{unknown}"
 
 
 def quantities(results, subjects):
