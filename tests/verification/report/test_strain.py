@@ -13,6 +13,7 @@ from figures.run_time import step_figure
 from figures.strain import BAR_LABEL, error_figure
 from made_up_study import SIDE, strain_rows, write_results
 from matplotlib import pyplot
+from page.tables import step_rows
 from page_case import PageTest
 from read import schema
 
@@ -96,6 +97,18 @@ class LegendTest(unittest.TestCase):
         self.addCleanup(pyplot.close, figure)
         colours = {bar.get_facecolor() for bar in figure.axes[0].patches}
         self.assertEqual(len(colours), 2 + len(schema.laws()))
+
+    def test_a_full_step_is_held_against_the_coarse_steps_of_its_own_law(self):
+        steps = [{"cell": "a", "load": "strip-1", "reference": law, "seconds_coarse_solve": coarse,
+                  "seconds_upsample": upsample, "seconds_fine_step": 1.0, "coarse_iterations": 3,
+                  "fine_iterations": 3, "fine_dofs": 100, "ranks": 1}
+                 for law, times in (("biot", (1e-3, 2e-3, 4e-3)), ("green", (0.01, 0.02, 0.04)))
+                 for coarse, upsample in zip(times, (1e-3, 5e-3, 2e-3))]
+        figure = step_figure(steps)
+        self.addCleanup(pyplot.close, figure)
+        told = [text.get_text() for text in figure.axes[0].texts]
+        self.assertEqual(told, [f"{row[7]} ×" for row in step_rows(steps)])
+        self.assertEqual(told, ["250 ×", "45.5 ×"])
 
 
 class AxesTest(unittest.TestCase):

@@ -137,14 +137,14 @@ def step_figure(steps):
     )
     for i, load in enumerate(loads):
         some = [step for step in steps if step["load"] == load]
-        light = median(s["seconds_coarse_solve"] + s["seconds_upsample"] for s in some)
         for k, (key, reference, label, colour) in enumerate(bars):
-            values = [s[key] for s in some if reference in (None, s["reference"])]
-            if not values:
+            its = [step for step in some if reference in (None, step["reference"])]
+            if not its:
                 continue
-            value, y = median(values), i - 0.4 + (k + 0.5) * height
+            value, y = median(step[key] for step in its), i - 0.4 + (k + 0.5) * height
             axes.barh(y, value - lower, 0.9 * height, left=lower, color=colour, label=label)
-            if reference:
+            if reference:  # over the coarse steps beside it, as tables.step_rows() has them
+                light = sum(median(step[part] for step in its) for part, *_ in bars[:2])
                 axes.annotate(
                     f"{style.three(float(value / light))} ×",
                     (value, y),
