@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Tests of the first sentence of a page, of its one stiffness, and of what is said of both."""
 import math
+import pathlib
+import re
 import unittest
 
 import report_path  # noqa: F401
@@ -11,6 +13,9 @@ from page import answer, entries, plausible
 from page.answer_pictures import as_homespun
 from page.headline import finer_mesh_sentence, headline, infinite_line, own_methods_sentence
 from read.cell_results import Cell
+
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
 class HeadlineTest(unittest.TestCase):
@@ -191,13 +196,35 @@ class PlausibleTest(unittest.TestCase):
         for angles in ((0.0,), (0.0, 10.0), (0.0, 180.0), (175.0, 5.0)):
             self.assertEqual(len(plausible.plausible_sentences(self.cell(500.0, angles))), 1, angles)
 
-    def test_the_bias_is_held_against_the_warp(self):
-        cell = self.cell(500.0)
-        measures = {name: value for name, value, _, _ in plausible.measures_of(cell)}
-        D = numpy.diag([5e-5, 5e-5, 1e-5])
+    def test_crimped_yarns_and_crossings_without_a_stiffer_direction_are_yarns(self):
+        shipped = {}
+        for name in ("plain-weave", "twill", "satin", "plain-weave-straight", "printed-patch"):
+            text = (ROOT / "meshes" / "cells" / f"{name}.prm").read_text(encoding="utf-8")
+            listed = re.search(r"set Orthotropic +=([^#\n]*)", text)[1].split(",")
+            phases = [dict(zip(("E1", "E2", "nu12", "G12", "angle"),
+                               map(float, one.split(":")[1].split()))) for one in listed]
+            shipped[name] = plausible.crossing(Cell(name, phases=phases))
+        self.assertIsNone(shipped.pop("printed-patch"))  # a knit
+        self.assertEqual(set(shipped.values()), {(0.0, 90.0)})
+        paper = {"E1": 3e9, "E2": 3e9, "nu12": 0.3, "G12": 3e9 / 2.6}
+        self.assertFalse(plausible.is_yarn(paper))
+        self.assertTrue(plausible.is_yarn({**paper, "G12": 3e8 / 2.6}))
+
+    def test_the_bias_is_held_against_the_yarns_however_the_cell_is_turned(self):
+        D = numpy.array([[5e-5, 1e-5, 0.0], [1e-5, 8e-5, 0.0], [0.0, 0.0, 1e-5]])
         S = numpy.linalg.inv(D)
         e = numpy.array([0.5, 0.5, 0.5])
-        self.assertAlmostEqual(measures["bending on the bias over warp"], 1.0 / (e @ S @ e) / 5e-5)
+        bias = 1.0 / (e @ S @ e)
+        for turn in (0.0, 45.0, 100.0):
+            c, s = numpy.cos(numpy.radians(turn)), numpy.sin(numpy.radians(turn))
+            R = numpy.array([[c * c, s * s, -2 * c * s], [s * s, c * c, 2 * c * s],
+                             [c * s, -c * s, c * c - s * s]])
+            cell = self.cell(500.0, (turn, turn + 90.0))
+            cell.homogenize["D"] = (R @ D @ R.T).tolist()
+            measures = {name.partition(" at ")[2]: value
+                        for name, value, _, _ in plausible.measures_of(cell) if "bias" in name}
+            for angle, k in ((turn, 0), ((turn + 90.0) % 180.0, 1)):
+                self.assertAlmostEqual(measures[f"{angle:g}°"], bias * S[k, k], msg=turn)
 
 
 if __name__ == "__main__":

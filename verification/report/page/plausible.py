@@ -2,6 +2,8 @@
 """Whether a cell is as stiff as measured cloth, and what the model of a cell with crossing yarns
 leaves out.
 """
+import itertools
+
 import numpy
 
 from figures import fabrics
@@ -11,9 +13,8 @@ from page.entries import MICRO
 from page.words import listed
 from read.stiffness import best_run, centre_and_bars
 
-YARN = 5.0  # E1 over E2 from which a phase is one of yarns
+YARN = 5.0  # largest modulus over the smallest from which a phase is one of yarns
 CROSSED = 30.0  # degrees between yarns that cross
-BIAS = numpy.pi / 4.0
 LEFT_OUT = (
     "Yarns of this cell cross, and the model glues them at every crossing, in one plane.",
     "It leaves out that yarns slide and turn on each other, lock under shear, and straighten when"
@@ -41,7 +42,7 @@ def plausible_sentences(cell):
         sentences.append(f"Outside of measured cloth: {'; '.join(outside)}{within} ({fabrics.SOURCES}).")
     elif inside:
         sentences.append(f"Within measured cloth ({fabrics.SOURCES}): {listed(inside)}.")
-    return sentences + (list(LEFT_OUT) if is_woven(cell) else [])
+    return sentences + (list(LEFT_OUT) if crossing(cell) else [])
 
 
 def measures_of(cell):
@@ -57,27 +58,44 @@ def measures_of(cell):
         band = tuple(MICRO * end for end in fabrics.bending_band())
         for k, name in enumerate(("D11", "D22")):
             found.append((name, MICRO * float(D[k, k]), " × 10⁻⁶ N m", band))
-        if is_woven(cell) and numpy.linalg.eigvalsh(D).min() > 0.0:
-            bias, warp = directional_modulus(D, numpy.array([BIAS, 2.0 * BIAS]))
-            found.append(("bending on the bias over warp", float(bias / warp), "", fabrics.bias_band()))
+        yarns = crossing(cell)
+        if yarns and numpy.linalg.eigvalsh(D).min() > 0.0:
+            bias = numpy.radians(sum(yarns) / 2.0 + numpy.array([0.0, 90.0]))
+            on_bias = directional_modulus(D, bias).mean()
+            for angle, along in zip(yarns, directional_modulus(D, numpy.radians(yarns))):
+                name = f"bending on the bias over that along the yarns at {angle:g}°"
+                found.append((name, float(on_bias / along), "", fabrics.bias_band()))
     return found
 
 
-def is_woven(cell):
-    """Whether phases are yarns in directions that cross."""
-    angles = [
-        float(phase["angle"])
+def crossing(cell):
+    """Two angles [degrees] of yarns, those that cross nearest to a right angle; None where no yarns
+    cross. The bias is the mean of both directions halfway between them.
+    """
+    angles = sorted({
+        float(phase["angle"]) % 180.0
         for phase in cell.phases or []
         if is_number(phase.get("angle")) and is_yarn(phase)
-    ]
-    return any(
-        CROSSED <= abs((one - other + 90.0) % 180.0 - 90.0) for one in angles for other in angles
+    })
+    between, yarns = max(
+        ((abs((one - other + 90.0) % 180.0 - 90.0), (one, other))
+         for one, other in itertools.combinations(angles, 2)),
+        default=(0.0, None),
     )
+    return yarns if between >= CROSSED else None
 
 
 def is_yarn(phase):
-    E1, E2 = phase.get("E1"), phase.get("E2")
-    return is_number(E1) and is_number(E2) and max(E1, E2) > YARN * min(E1, E2) > 0.0
+    """Whether one modulus is far below another: E across the yarn, or where a crimped yarn is no
+    stiffer along than across, or two yarns cross in one phase, E = 2 (1 + nu) G of the shear modulus.
+    """
+    E1, E2, nu, G = (phase.get(key) for key in ("E1", "E2", "nu12", "G12"))
+    if not (is_number(E1) and is_number(E2)):
+        return False
+    moduli = [E1, E2]
+    if is_number(nu) and is_number(G):
+        moduli.append(2.0 * (1.0 + nu) * G)
+    return max(moduli) > YARN * min(moduli) > 0.0
 
 
 def is_number(value):
