@@ -160,7 +160,8 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
        << (is_bracketed && !is_of_drawing(assessed)
              ? static_cast<int>(assessed.bracket->bracket->n_triangles)
              : cell.mesh.n_triangles())
-       << " triangles, " << cell.phases.size() << " phases, P" << assessed.options.order << ", "
+       << " triangles, " << cell.phases.size()
+       << (cell.phases.size() == 1 ? " phase, P" : " phases, P") << assessed.options.order << ", "
        << result.n_dofs << " DoFs, " << result.iterations[0] << "/" << result.iterations[1] << "/"
        << result.iterations[2] << " iterations\n";
   if (!result.abandoned.empty())
