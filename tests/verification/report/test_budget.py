@@ -328,6 +328,20 @@ class BudgetReport(PageTest):
         self.assertIn("<p>The error of the paper's method, <i>localized</i>, split into parts", open_page)
         self.assertIn("stripes: where the error of localized, the paper", open_page)
 
+    def test_of_laws_that_no_coarse_cloth_has_the_first_of_the_file_has_headline_and_causes(self):
+        laws = ("green", "linear")
+        for file in ("strain.csv", "gains.csv"):
+            self.edit_table(file, lambda rows: [{**row, "reference": law} for law in laws
+                                                for row in rows if row["reference"] == "biot"])
+        for law in laws:
+            self.edit_table("budget.csv", lambda rows: [{**row, "reference": law} for row in rows])
+            self.assertEqual(self.run_report(), (0, ""))
+            page = self.page()
+            self.assertIn("compared with the reference green", page)
+            unknown = "Why error is left was not measured in shear-frame"
+            self.assertEqual((unknown in page, "(70 % of it)" in page),
+                             (law != "green", law == "green"))
+
     def test_what_was_left_out_is_said(self):
         self.remove("budget.csv", "runtime.csv", "validity.csv")
         self.assertEqual(self.run_report(), (0, ""))

@@ -351,20 +351,10 @@ class ComparisonTest(PageTest):
             ("dots: layered as it is", "", None),
         ):
             self.assertEqual(key_of(claim, "layered", part), key, claim)
-        found = results.Results(
-            studies=[
-                results.Study(
-                    "a",
-                    "a",
-                    place="a",
-                    verdicts=[
-                        verdict(f"{cell}: slope", outcome, 2.0, limit)
-                        for cell, outcome, limit in (("one", "PASS", "3"), ("two", "FAIL", "1"))
-                    ]
-                    + [verdict("one: alone", "PASS")],
-                )
-            ]
-        )
+        verdicts = [verdict(f"{cell}: slope", outcome, 2.0, limit)
+                    for cell, outcome, limit in (("one", "PASS", "3"), ("two", "FAIL", "1"))]
+        verdicts.append(verdict("one: alone", "PASS"))
+        found = results.Results(studies=[results.Study("a", "a", place="a", verdicts=verdicts)])
         subjects = [versions.Subject(name, name, "a") for name in ("one", "two")]
         (block,) = claims_side_by_side(found, subjects)
         self.assertEqual(
@@ -378,10 +368,10 @@ class ComparisonTest(PageTest):
     def test_a_claim_is_of_the_cell_that_it_begins_with_whatever_other_words_it_has(self):
         text = "the homogenized sheet at rest puts each vertex where it is"
         for command, title in (("strain", ""), ("verify", "strain: ")):
-            verdicts = [verdict(f"{title}{cell}: {text}", outcome)
-                        for cell, outcome in (("dot", "FAIL"), ("sheet", "PASS"))]
-            study = results.Study("a", "a", SimpleNamespace(command=command), place="a",
-                                  verdicts=verdicts)
+            outcomes = {"dot": "FAIL", "sheet": "PASS"}.items()
+            verdicts = [verdict(f"{title}{cell}: {text}", one) for cell, one in outcomes]
+            run = SimpleNamespace(command=command)
+            study = results.Study("a", "a", run, place="a", verdicts=verdicts)
             subjects = [versions.Subject(name, name, "a") for name in ("sheet", "dot")]
             (block,) = claims_side_by_side(results.Results(studies=[study]), subjects)
             (row,) = block["rows"]

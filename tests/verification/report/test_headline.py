@@ -23,7 +23,8 @@ class HeadlineTest(unittest.TestCase):
         """load -> (mark, change), as answer.line_of() has them."""
         return [
             {"load": load.replace("_", "-"), "mark": mark, "change": change, "gain": 0.5,
-             "left_per_cell": 1e-3, "bar_per_cell": 2e-4, "valid": "5 %", "why_open": "", "lost": ""}
+             "left_per_cell": 1e-3, "bar_per_cell": 2e-4, "valid": "5 %", "why_open": "",
+             "lost": ""}
             for load, (mark, change) in marks.items()
         ]
 

@@ -100,13 +100,13 @@ class LoadPage(PageTest):
     def test_a_stress_of_another_sign_is_not_called_smaller(self):
         paths = [Path("a", "biot", method, [row("biot", method, 5, modulus)])
                  for method, modulus in (("resolved", 1000.0), ("coarse", -350.0))]
-        self.assertIn("biot: stress 11 of the coarse cloth is −35.0 N/m, of another sign than that of"
-                      " the cell, 100.0 ± 1.0 N/m.", coarse_sentence(paths))
+        self.assertIn("biot: stress 11 of the coarse cloth is −35.0 N/m, of another sign than that"
+                      " of the cell, 100.0 ± 1.0 N/m.", coarse_sentence(paths))
         self.assertFalse([one for one in coarse_sentence(paths) if "135 %" in one])
         free = [Path("a", "biot", method, [{**row("biot", method, 5, 1000.0), "strain_22": strain}])
                 for method, strain in (("resolved", -0.03), ("coarse", 0.01))]
-        self.assertIn("strain 22 of the coarse cloth is 1.00 %, of another sign than that of the cell,"
-                      " −3.000 ± 0.030 %.", coarse_sentence(free)[1])
+        self.assertIn("strain 22 of the coarse cloth is 1.00 %, of another sign than that of the"
+                      " cell, −3.000 ± 0.030 %.", coarse_sentence(free)[1])
 
     def test_a_name_with_a_tag_in_it_is_shown_as_it_is(self):
         for file in ("load.csv", "study.json"):

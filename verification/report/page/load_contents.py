@@ -84,9 +84,10 @@ def coarse_sentence(paths):
                     f" the mesh may ({three(100.0 * difference)} %, the mesh {three(100.0 * mesh)} %)."
                 )
             elif a[y] * b[y] < 0.0:
+                cell = number_with_bar(factor * a[y], factor * bar)
                 sentences.append(
-                    f"{law}: {what} of the coarse cloth is {three(factor * b[y])} {unit}, of another"
-                    f" sign than that of the cell, {number_with_bar(factor * a[y], factor * bar)} {unit}."
+                    f"{law}: {what} of the coarse cloth is {three(factor * b[y])} {unit}, of"
+                    f" another sign than that of the cell, {cell} {unit}."
                 )
             else:
                 sentences.append(

@@ -86,8 +86,8 @@ def crossing(cell):
 
 
 def is_yarn(phase):
-    """Whether one modulus is far below another: E across the yarn, or where a crimped yarn is no
-    stiffer along than across, or two yarns cross in one phase, E = 2 (1 + nu) G of the shear modulus.
+    """Whether one modulus is far below another: E across the yarn; or, where a crimped yarn is no
+    stiffer along than across or two yarns cross in one phase, E = 2 (1 + nu) G of its shear.
     """
     E1, E2, nu, G = (phase.get(key) for key in ("E1", "E2", "nu12", "G12"))
     if not (is_number(E1) and is_number(E2)):
