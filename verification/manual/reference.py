@@ -18,7 +18,8 @@ NOTICE = "<!-- Generated: `cmake --build --preset release --target docs` writes 
 KEYS_BEGIN = re.compile(r"^Keys of (a \w+ file):\n+", re.MULTILINE)
 VALUES = {"TEXT": "text", "FLOAT": "number", "INT": "integer", "UINT": "integer", "ENUM": "word"}
 UNITS = (  # by the ending of a column's name
-    ("_N_per_m", "N/m"), ("_N", "N"), ("_J", "J"), ("_m", "m"), ("_s", "s"), ("_deg", "degrees"),
+    ("_N_per_m3", "N/m^3"), ("_N_per_m", "N/m"), ("_per_m", "1/m"), ("_N", "N"), ("_J", "J"),
+    ("_m", "m"), ("_s", "s"), ("_deg", "degrees"), ("_rad", "rad"),
 )
 LAWS = {
     "linear": "linear elasticity at small strain: ½ e:C:e",
@@ -40,8 +41,8 @@ COMMON = {  # columns of many tables
 }
 DOMAINS = {
     "positive": "positive", "not negative": "0 or more", "needed not negative": "0 or more",
-    "real": "number", "name": "name", "text": "text", "flag": "0 or 1", "outcome": "PASS, FAIL or"
-    " INCONCLUSIVE",
+    "real": "number", "name": "name", "text": "text", "flag": "true or false",
+    "outcome": "PASS, FAIL or INCONCLUSIVE",
 }
 
 

@@ -22,6 +22,7 @@ sys.path.insert(0, str(MANUAL))
 
 # pylint: disable=wrong-import-position
 from help_text import entries_of, read  # noqa: E402
+from reference import tables_page  # noqa: E402
 from table_words import words_of  # noqa: E402
 
 FRONT = ROOT / "README.md"
@@ -132,6 +133,17 @@ class Commands(unittest.TestCase):
                 self.assertTrue(stored.read_text(encoding="utf-8") ==
                                 path.read_text(encoding="utf-8"),
                                 f"{stored} is not what this program says; {AGAIN}")
+
+    def test_a_column_has_the_unit_of_its_name_and_the_values_that_its_table_holds(self):
+        units = {"curvature_per_m": "1/m", "stress_11_N_per_m": "N/m", "force_N": "N", "x_m": "m",
+                 "foundation_N_per_m3": "N/m^3", "normal_error_mean_rad": "rad",
+                 "angle_deg": "degrees", "mean_per_cell": "", "seconds": "s"}
+        columns = [{"name": name, "domain": "real"} for name in units]
+        columns.append({"name": "stable", "domain": "flag"})
+        page = tables_page({"a.csv": {"keys": 0, "columns": columns}, "laws": [], "loads": []}, {})
+        found = re.findall(r"(?m)^\| `(\w+)` \| (.*?) \| (.*?) \|", page)
+        self.assertEqual(found, [(name, unit, "number") for name, unit in units.items()]
+                         + [("stable", "", "true or false")])
 
     def test_python_takes_for_text_what_is_text(self):
         code = (ROOT / "python" / "package" / "results.py").read_text(encoding="utf-8")
