@@ -228,8 +228,6 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
       outlines[panel].push_back(edge);
       corners[panel].insert(corners[panel].end(), edge.begin(), edge.end());
     }
-  std::set<Edge> told; // of vertices in space, so that a junction seen twice is told once
-  const Eigen::VectorXi space = space_of_rest(cloth);
   for (std::size_t panel = 0; panel < outlines.size(); ++panel)
     vertices_inside_edges(
       cloth.rest.vertices, corners[panel], outlines[panel],
@@ -241,15 +239,19 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
                      " and " + std::to_string(edge[1]) + " of panel " + std::to_string(panel) +
                      " (a T-junction); expected triangles that share whole edges: split the "
                      "triangle of that edge there");
-        for (const int end : edge)
-          told.insert({space(v), space(end)});
       });
 
-  // In space: open edges. Two that leave one vertex and lie on each other were meant to be sewn.
+  // In space: open edges. Two that leave one vertex and lie on each other were meant to be sewn,
+  // but for those of one panel, of which its rest state tells: cloth may lie folded on itself.
+  std::set<std::array<int, 2>> panels_at; // vertex in space, panel
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (const int v : cloth.triangles.row(t))
+      panels_at.insert({v, panels.of_triangle(t)});
   std::vector<Edge> open;
   std::vector<int> ends;
   std::map<int, std::vector<int>> next;
-  for (const auto &[edge, owners] : edges_of(cloth.triangles))
+  const auto edges = edges_of(cloth.triangles);
+  for (const auto &[edge, owners] : edges)
     if (owners.size() == 1)
     {
       open.push_back(edge);
@@ -265,7 +267,7 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
       const auto meets       = [&](const int end)
       { return std::find(neighbours.begin(), neighbours.end(), end) != neighbours.end(); };
       if ((!meets(edge[0]) && !meets(edge[1])) ||
-          told.count({v, edge[0]}) + told.count({v, edge[1]}) == 2)
+          panels_at.count({v, panels.of_triangle(edges.at(edge)[0].first)}) > 0)
         return;
       faults.add("T-junctions",
                  "vertex " + std::to_string(v) + " at " + at(cloth.positions, v) +

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "localization/garment/homespun.h"
 #include "tests/localization/garment_cases.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,23 @@ TEST(exact_garment, without_modes_an_affine_motion_is_reproduced_at_every_fine_v
   const Space fine     = garment.upsampled(tests::affine_motion<3>(panels.flat, F), options);
   const Space expected = tests::affine_motion<3>(tests::flat_points(garment.fine), F);
   EXPECT_LT((fine - expected).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(exact_garment, a_frame_that_folds_flat_on_itself_is_up_sampled_in_one_call)
+{
+  // Three columns of squares; folded along the third edge, the last ends within the one before.
+  meshes::Points rest(8, 2);
+  rest << 0., 0., 0.012, 0., 0.021, 0., 0.027, 0., 0., 0.01, 0.012, 0.01, 0.021, 0.01, 0.027, 0.01;
+  meshes::Triangles F(6, 3);
+  F << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6;
+  meshes::SpacePoints V(8, 3);
+  V << rest, Eigen::VectorXd::Zero(8);
+  for (const int v : {3, 7})
+    V(v, 0) = 0.042 - V(v, 0);
+  const auto cell = tests::smooth_cell(tests::skewed_lattice(), 7, 6);
+  const auto fine = upsample(V, F, cell, rest).positions;
+  EXPECT_TRUE(fine.allFinite());
+  EXPECT_NEAR(fine.col(0).maxCoeff(), 0.021, 1e-4);
 }
 
 TEST(exact_garment, under_a_uniform_strain_each_panel_follows_the_closed_form_in_its_own_frame)

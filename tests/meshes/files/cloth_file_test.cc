@@ -325,6 +325,23 @@ TEST(tripwire_cloth_faults, t_junctions_are_named_in_a_panel_and_on_a_seam_where
   }
 }
 
+TEST(invariant_cloth_faults, a_panel_may_lie_folded_flat_on_itself)
+{
+  // A towel, the columns beyond 21 mm turned over onto those before.
+  const std::vector<double> columns = {0., 0.009, 0.021, 0.03, 0.041};
+  ClothMesh cloth;
+  cloth.rest = coarse_sheet({0., 0.}, Eigen::Matrix2d::Identity(), 4, 2);
+  cloth.positions.setZero(cloth.rest.n_vertices(), 3);
+  for (int v = 0; v < cloth.rest.n_vertices(); ++v)
+  {
+    const double x = columns[static_cast<std::size_t>(v % 5)], y = 0.02 * (v / 5);
+    cloth.rest.vertices.row(v) << x, y;
+    cloth.positions.row(v) << std::min(x, 0.042 - x), y, 0.;
+  }
+  cloth.triangles = cloth.rest.triangles;
+  EXPECT_EQ(cloth_faults(cloth, "towel"), std::vector<std::string>());
+}
+
 TEST(invariant_cloth_faults, the_verdicts_do_not_change_with_unit_and_place)
 {
   for (const double unit : {1e-6, 1., 1e6})
