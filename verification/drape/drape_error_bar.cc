@@ -5,6 +5,7 @@
 #include "verification/drape/fine_run.h"
 #include "verification/record/verdict.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -94,15 +95,23 @@ double DrapeErrorBar::of_time_step_at(const std::size_t frame, const double larg
                  [this](const std::size_t k) { return 1.25 * 2. * halved_step[k]; });
 }
 
+double DrapeErrorBar::of_coarse_step_at(const std::size_t frame) const
+{
+  if (frame >= coarse_step.size())
+    return std::numeric_limits<double>::quiet_NaN();
+  return 1.25 * 2. * *std::max_element(coarse_step.begin(), coarse_step.begin() + frame + 1);
+}
+
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
                               const DrapeSchedule &schedule, const MPI_Comm communicator,
                               const std::function<void(int frame)> &tell)
 {
   const Scene scene = scaled(draped.scene, n_cells);
   const DrapedCell sheet(scene, draped.cell, draped.homogenized, draped.law);
-  const Upsampler3d affine = sheet.upsampler<double>(Method("affine")),
-                    method = sheet.upsampler<double>(Method("localized"));
-  const auto upsampled     = [](const Upsampler3d &upsampler, const Runs &runs)
+  const Upsampler3d affine       = sheet.upsampler<double>(Method("affine")),
+                    method       = sheet.upsampler<double>(Method("localized")),
+                    whole_method = draped.upsampler<double>(Method("localized"));
+  const auto upsampled           = [](const Upsampler3d &upsampler, const Runs &runs)
   {
     Upsampler3d::Fine fine;
     upsampler.upsample(runs.coarse.cloth().positions(), fine);
@@ -113,6 +122,8 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
   for (const Discretization &discretization : {Discretization{1, 0}, {2, 0}, {2, 1}})
     runs.fine.push_back(dealii_run(sheet, law, discretization, communicator));
   halved.fine.push_back(dealii_run(sheet, law, {1, 0}, communicator));
+  Runs whole(draped.scene, draped, schedule.step, 1),
+    whole_halved(draped.scene, draped, 0.5 * schedule.step, 2);
 
   DrapeErrorBar bar;
   bar.order = order_of_p2(draped.cell, order_of_p2_sheet);
@@ -129,6 +140,12 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
       (upsampled(method, runs) - p1) - (upsampled(method, halved) - halved.fine[0]->positions());
     bar.halved_step.push_back(schedule.is_static ? 0. : mean_length(change));
     bar.fluctuation.push_back(mean_length(refined - upsampled(affine, runs)));
+    if (schedule.is_static)
+      bar.coarse_step.push_back(0.);
+    else if (static_cast<int>(bar.coarse_step.size()) == frame && whole.advance(schedule, frame) &&
+             whole_halved.advance(schedule, frame))
+      bar.coarse_step.push_back(
+        mean_length(upsampled(whole_method, whole) - upsampled(whole_method, whole_halved)));
   }
   return bar;
 }

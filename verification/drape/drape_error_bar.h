@@ -24,18 +24,26 @@ struct DrapeErrorBar
   std::vector<DiscretizationDistance> meshes; ///< of the reference [m]
   std::vector<double> halved_step; ///< mean |e(h) − e(h/2)|, e of drape_error_bar() [m]
   std::vector<double> fluctuation; ///< mean |refined P2 − coarse motion| [m]
+  std::vector<double> coarse_step; ///< mean |u(h) − u(h/2)|, u of drape_error_bar() [m]
 
   /// The bar by mesh, DiscretizationDistance::uncertainty(), or by time step on another sheet [m];
   /// not a number where it is not known.
   /// @param largest_there the largest fluctuation up to that frame [m]
   double of_mesh_at(std::size_t frame, double largest_there) const;
   double of_time_step_at(std::size_t frame, double largest_there) const;
+
+  /// What the bar by time step of the reference alone has more than of_time_step_at() [m]: there
+  /// cloths that go with one step share some of what it changes. Not a number where it is not
+  /// known.
+  double of_coarse_step_at(std::size_t frame) const;
 };
 
 /// Runs the scene on a small sheet: P1, P2, refined P2, and where the cloth moves P1 and the coarse
 /// cloth once more with half of the time step. With e = up-sampled − P1, of first order in the time
 /// step h because the reference's implicit Euler is, its distance from that of h -> 0 is
 /// 2 |e(h) − e(h/2)|, times 1.25 as in the grid convergence index; means over the fine vertices.
+/// The step changes the reference itself by |e(h) − e(h/2)| + |u(h) − u(h/2)| at most, where u, the
+/// up-sampled whole coarse cloth, is run with both steps, too: a small sheet moves in another time.
 /// Ends at the first frame that one of them does not reach.
 /// @param law of the reference
 /// @param n_cells of the small sheet, per side

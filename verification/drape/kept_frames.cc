@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "verification/drape/kept_frames.h"
 
+#include "meshes/files/hdf5_reader.h"
+
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -15,6 +19,8 @@ std::string file_name_of(const std::string &reference, const int frame)
 
 namespace
 {
+constexpr const char *coarse_step = "coarse_time_step_uncertainty_m";
+
 KeptMesh mesh_of(const DrapedCell &draped)
 {
   return {draped.at_fine_vertices(draped.fine.positions), draped.fine_triangles()};
@@ -39,15 +45,22 @@ void keep_cloth(const std::string &run, const DrapedCell &draped)
   file.finish();
 }
 
-void keep_frame(const std::string &run, const DrapedCell &draped, const std::string &reference,
-                const int frame, const KeptPositions &positions)
+void keep_frame(const std::string &run, const DrapedCell &draped, const KeptFrame &frame)
 {
-  keep_state(folder_of_positions(run, draped.cell.name), file_name_of(reference, frame),
-             mesh_of(draped), positions,
+  keep_state(folder_of_positions(run, draped.cell.name),
+             file_name_of(frame.reference, frame.number), mesh_of(draped), frame.positions,
              [&](meshes::Hdf5Writer &file)
              {
-               file.attribute("/", "reference", reference);
-               file.attribute("/", "frame", frame);
+               file.attribute("/", "reference", frame.reference);
+               file.attribute("/", "frame", frame.number);
+               if (std::isfinite(frame.coarse_step))
+                 file.attribute("/", coarse_step, frame.coarse_step);
              });
+}
+
+double kept_coarse_step(const std::string &folder, const std::string &name)
+{
+  const meshes::Hdf5Reader file(folder + "/" + name + ".h5", "the positions of a state");
+  return file.number_attribute("/", coarse_step).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 } // namespace homespun::verification

@@ -179,7 +179,8 @@ private:
     if (run.options.keep)
       for (const CoarseRun &cloth : coarse.all)
         if (cloth.is_main && cloth.frames.size() > at)
-          keep_frame(run.options.output, draped, reference, frame, {cloth.frames[at], positions});
+          keep_frame(run.options.output, draped,
+                     {reference, frame, {cloth.frames[at], positions}, bar.of_coarse_step_at(at)});
   }
 
   void note_on_frames_not_kept(const int n_frames)

@@ -8,8 +8,8 @@
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -30,11 +30,13 @@ std::string shape_text(const std::string &rows, const std::string &columns)
   return "(" + rows + ", " + columns + ")";
 }
 
-[[noreturn]] void refuse_shape(const std::string &file, const std::string &found, const int n)
+/// @param like of that shape; flat cloth may have a third column of zeros
+[[noreturn]] void refuse_shape(const std::string &file, const std::string &found, const Rows &like)
 {
+  const std::string n = std::to_string(like.rows());
   throw BadInput(file + ": holds an array of shape " + found + "; expected " +
-                 shape_text(std::to_string(n), "2") + " or " + shape_text(std::to_string(n), "3") +
-                 ", a row for each vertex of the rest mesh in its order");
+                 (like.cols() == 2 ? shape_text(n, "2") + " or " : "") + shape_text(n, "3") +
+                 ", a row for each vertex of the kept mesh in its order");
 }
 
 template <typename Number, int order>
@@ -47,7 +49,7 @@ Rows numbers_of(const std::string &bytes, const std::size_t begin, const Eigen::
 }
 
 /// numpy's own format: "\x93NUMPY", version, length of the header, a dict in Python's words, data.
-Rows read_npy(const std::string &file, const int n_vertices)
+Rows read_npy(const std::string &file, const Rows &like)
 {
   std::ifstream input(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(input), {}};
@@ -72,11 +74,11 @@ Rows read_npy(const std::string &file, const int n_vertices)
     throw BadInput(file + ": holds numbers of type " + type[1].str() +
                    "; expected float64: positions.astype(float)");
   const std::string columns = shape[2];
-  if (shape[1] != std::to_string(n_vertices) || (columns != "2" && columns != "3") ||
+  if (shape[1] != std::to_string(like.rows()) || (columns != "2" && columns != "3") ||
       shape[3].length() > 0)
-    refuse_shape(file, shape[0].str().substr(shape[0].str().find('(')), n_vertices);
-  const Eigen::Index n_columns = columns == "2" ? 2 : 3;
-  const std::size_t size       = is_double ? sizeof(double) : sizeof(float);
+    refuse_shape(file, shape[0].str().substr(shape[0].str().find('(')), like);
+  const Eigen::Index n_vertices = like.rows(), n_columns = columns == "2" ? 2 : 3;
+  const std::size_t size = is_double ? sizeof(double) : sizeof(float);
   if (bytes.size() != begin + length + size * static_cast<std::size_t>(n_vertices * n_columns))
     throw BadInput(file + ": is cut off, or longer than its header says; write it again");
   const bool is_by_column = order[1] == "True";
@@ -98,13 +100,13 @@ Rows read_npy(const std::string &file, const int n_vertices)
 }
 
 /// Where there are triangles, they must be those of the mesh.
-Rows read_hdf5(const std::string &file, const meshes::Triangles &triangles, const int n_vertices)
+Rows read_hdf5(const std::string &file, const meshes::Triangles &triangles, const Rows &like)
 {
   const meshes::Hdf5Reader input(file, "a dataset /positions");
   const auto shape =
     input.shape_of("/positions", {meshes::Hdf5Reader::any, meshes::Hdf5Reader::any});
-  if (shape[0] != static_cast<unsigned long long>(n_vertices) || shape[1] < 2 || shape[1] > 3)
-    refuse_shape(file, shape_text(std::to_string(shape[0]), std::to_string(shape[1])), n_vertices);
+  if (shape[0] != static_cast<unsigned long long>(like.rows()) || shape[1] < 2 || shape[1] > 3)
+    refuse_shape(file, shape_text(std::to_string(shape[0]), std::to_string(shape[1])), like);
   if (input.has("/triangles"))
   {
     const auto corners           = input.shape_of("/triangles", {meshes::Hdf5Reader::any, 3});
@@ -114,7 +116,7 @@ Rows read_hdf5(const std::string &file, const meshes::Triangles &triangles, cons
       refuse_triangles(file);
   }
   const std::vector<double> values = input.numbers("/positions", shape);
-  return Eigen::Map<const Rows>(values.data(), n_vertices, static_cast<Eigen::Index>(shape[1]));
+  return Eigen::Map<const Rows>(values.data(), like.rows(), static_cast<Eigen::Index>(shape[1]));
 }
 
 /// By meshio.
@@ -136,12 +138,12 @@ meshes::Polygons read_vtu(const std::string &file)
   return found;
 }
 
-Rows read_surface(const std::string &file, const meshes::Triangles &triangles, const int n)
+Rows read_surface(const std::string &file, const meshes::Triangles &triangles, const Rows &like)
 {
   const bool is_vtu            = std::filesystem::path(file).extension() == ".vtu";
   const meshes::Polygons found = is_vtu ? read_vtu(file) : meshes::read_polygons(file);
-  if (found.positions.rows() != n)
-    refuse_shape(file, shape_text(std::to_string(found.positions.rows()), "3"), n);
+  if (found.positions.rows() != like.rows())
+    refuse_shape(file, shape_text(std::to_string(found.positions.rows()), "3"), like);
   bool is_same = static_cast<Eigen::Index>(found.faces.size()) == triangles.rows();
   for (Eigen::Index t = 0; is_same && t < triangles.rows(); ++t)
   {
@@ -153,17 +155,46 @@ Rows read_surface(const std::string &file, const meshes::Triangles &triangles, c
   return found.positions;
 }
 
-/// The last decimal that any number needs, as a length; zero where they need all digits.
-double decimals_of(const Rows &values)
+/// The shortest text of a number that reads back exactly, D.DDDDe+DD.
+struct Digits
 {
-  double unit = 1.;
-  for (int decimals = 0; decimals < 12; ++decimals, unit *= 0.1)
+  template <typename Number>
+  explicit Digits(const Number value)
   {
-    const Eigen::ArrayXXd scaled = values.array() / unit;
-    if ((scaled - scaled.round()).abs().maxCoeff() < 1e-3)
-      return unit;
+    char text[32];
+    const std::string all(
+      text,
+      std::to_chars(text, text + sizeof(text), std::abs(value), std::chars_format::scientific).ptr);
+    const std::size_t e = all.find('e');
+    significant         = static_cast<int>(e == 1 ? 1 : e - 1);
+    exponent            = std::stoi(all.substr(e + 1));
   }
-  return 0.;
+
+  int significant, exponent;
+};
+
+/// The last digit that a file of text has of a vertex's largest coordinate, as a length, in the
+/// mean. A file has as many decimals as any of its numbers, as by %.6f, or as many significant
+/// digits, as by %.6g: near zero the latter have more decimals than they have elsewhere.
+template <typename Number>
+double last_digit(const Rows &values)
+{
+  int decimals = 0, significant = 1;
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    if (values.data()[k] != 0.)
+    {
+      const Digits its(static_cast<Number>(values.data()[k]));
+      decimals    = std::max(decimals, its.significant - 1 - its.exponent);
+      significant = std::max(significant, its.significant);
+    }
+  double sum = 0.;
+  for (Eigen::Index v = 0; v < values.rows(); ++v)
+  {
+    const double largest = values.row(v).cwiseAbs().maxCoeff();
+    const int last       = largest > 0. ? Digits(largest).exponent + 1 - significant : -decimals;
+    sum += std::pow(10., std::max(-decimals, last));
+  }
+  return sum / static_cast<double>(values.rows());
 }
 } // namespace
 
@@ -171,14 +202,14 @@ GivenPositions read_positions(const std::string &file, const meshes::Triangles &
                               const PositionRows &like)
 {
   const std::string kind = std::filesystem::path(file).extension();
-  const int n            = static_cast<int>(like.rows());
+  const bool is_surface  = kind == ".obj" || kind == ".ply" || kind == ".vtu"; // may be text
   Rows values;
   if (kind == ".npy")
-    values = read_npy(file, n);
+    values = read_npy(file, like);
   else if (kind == ".h5" || kind == ".hdf5")
-    values = read_hdf5(file, triangles, n);
-  else if (kind == ".obj" || kind == ".ply" || kind == ".vtu")
-    values = read_surface(file, triangles, n);
+    values = read_hdf5(file, triangles, like);
+  else if (is_surface)
+    values = read_surface(file, triangles, like);
   else
     throw BadInput(file + ": is of a kind that is not read; expected .npy, .h5, .obj, .ply or "
                           ".vtu");
@@ -194,8 +225,10 @@ GivenPositions read_positions(const std::string &file, const meshes::Triangles &
     throw BadInput(file + ": its third column is not zero; expected positions in the plane of the "
                           "sheet");
   const bool is_single = values.cast<float>().cast<double>() == values;
-  return {values.leftCols(dim), is_single        ? length * std::numeric_limits<float>::epsilon()
-                                : kind == ".obj" ? decimals_of(values)
-                                                 : 0.};
+  double resolution    = is_single ? length * std::numeric_limits<float>::epsilon() : 0.;
+  if (is_surface)
+    resolution =
+      std::max(resolution, is_single ? last_digit<float>(values) : last_digit<double>(values));
+  return {values.leftCols(dim), resolution};
 }
 } // namespace homespun::verification

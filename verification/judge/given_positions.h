@@ -12,7 +12,8 @@ namespace homespun::verification
 struct GivenPositions
 {
   PositionRows points;    ///< (n,2), or (n,3) in space [m]
-  double resolution = 0.; ///< distance between two numbers that the file can tell apart [m]
+  double resolution = 0.; ///< distance between two numbers that the file can tell apart: of float32
+                          ///< or, in .obj, .ply and .vtu, of the digits of large coordinates [m]
 };
 
 /// Reads .npy (float64 or float32), .h5 (dataset /positions), .obj, .ply or, by meshio, .vtu. Of

@@ -74,16 +74,18 @@ std::vector<Verdict> judge_frames(JudgedRun &given)
     others, [](const DrapeRow &row) { return file_name_of(row.reference, row.frame); },
     [&](const DrapeRow &known, const GivenFile &file)
     {
-      const PositionRows reference =
-        kept_reference(folder, file_name_of(known.reference, known.frame), mesh);
-      const ErrorNorms norms   = error_norms(given.distance(file, mesh, side, reference));
-      DrapeRow row             = known; // and with it the bars, which are the reference's
-      row.method               = options.method;
-      row.mean                 = norms.mean;
-      row.rms                  = norms.rms;
-      row.max                  = norms.max;
-      row.mean_per_cell        = norms.mean / side;
-      row.mean_per_fluctuation = norms.mean * (known.mean_per_fluctuation / known.mean);
+      const std::string name       = file_name_of(known.reference, known.frame);
+      const PositionRows reference = kept_reference(folder, name, mesh);
+      const ErrorNorms norms       = error_norms(given.distance(file, mesh, side, reference));
+      DrapeRow row                 = known; // and with it the bar by mesh, which is the reference's
+      row.method                   = options.method;
+      row.mean                     = norms.mean;
+      row.rms                      = norms.rms;
+      row.max                      = norms.max;
+      row.mean_per_cell            = norms.mean / side;
+      row.mean_per_fluctuation     = norms.mean * (known.mean_per_fluctuation / known.mean);
+      // Methods of the study share with the reference what the step changes in the coarse cloth.
+      row.time_step += kept_coarse_step(folder, name);
       return row;
     });
   std::vector<DrapeRow> all = rows;

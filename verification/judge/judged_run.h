@@ -52,8 +52,9 @@ public:
   /// @param mesh of the reference, where the cloth was at first
   /// @param side of a cell [m]
   /// @param align moves what was given where only positions up to a translation count
-  /// @throws BadInput where the positions are not of the mesh, or farther off than cloth that does
-  ///   not move at all, which mostly means another unit, order or sheet
+  /// @throws BadInput where the positions are not of the mesh, or more than twice as far
+  ///   off as cloth that does not move at all, in a scene also half of a cell's side, which mostly
+  ///   means another unit, order or sheet
   Eigen::VectorXd distance(const GivenFile &file, const KeptMesh &mesh, double side,
                            const PositionRows &reference,
                            const std::function<void(PositionRows &)> &align = {});

@@ -13,14 +13,19 @@ using namespace homespun::verification;
 
 namespace
 {
-/// A sheet of one cell, pulled during four hundredths of a second.
-DrapeErrorBar bar_of(const double time_step, const TimeIntegration integration)
+/// Four hundredths of a second of a scene.
+Scene short_scene(const double time_step)
 {
   Scene scene          = read_scene(std::string(CELLS) + "../scenes/pull.prm");
   scene.time_step      = time_step;
   scene.frame_interval = 0.02;
   scene.duration       = 0.04;
-  scene.integration    = integration;
+  return scene;
+}
+
+/// Measured on one cell.
+DrapeErrorBar bar_of(const Scene &scene)
+{
   const homogenization::UnitCell cell =
     homogenization::read_unit_cell(std::string(CELLS) + "layered.prm");
   const homogenization::Homogenization result =
@@ -29,6 +34,14 @@ DrapeErrorBar bar_of(const double time_step, const TimeIntegration integration)
                           Law::biot);
   return drape_error_bar(draped, Law::biot, 1, DrapeSchedule(scene), MPI_COMM_WORLD,
                          [](const int) {});
+}
+
+/// Of a sheet that is pulled.
+DrapeErrorBar bar_of(const double time_step, const TimeIntegration integration)
+{
+  Scene scene       = short_scene(time_step);
+  scene.integration = integration;
+  return bar_of(scene);
 }
 } // namespace
 
@@ -58,7 +71,27 @@ TEST(exact_drape_error_bar, equilibria_have_no_time_step)
   const DrapeErrorBar bar = bar_of(0.01, TimeIntegration::equilibria);
   ASSERT_EQ(bar.halved_step.size(), 3u);
   EXPECT_EQ(bar.of_time_step_at(2, bar.fluctuation[2]), 0.);
+  EXPECT_EQ(bar.of_coarse_step_at(2), 0.);
   EXPECT_GT(bar.of_mesh_at(2, bar.fluctuation[2]), 0.);
+}
+
+TEST(exact_drape_error_bar, what_cloths_share_of_the_time_step_is_that_of_the_whole_sheet)
+{
+  // Implicit Euler lets a sheet fall by g (t^2 + h t) / 2: all cloths are g h t / 2 too low, and
+  // the difference of two of them is not.
+  Scene scene = short_scene(0.01);
+  scene.terms = {"membrane", "gravity"};
+  scene.n1 = scene.n2 = 2;
+  scene.held.clear();
+  const DrapeErrorBar bar = bar_of(scene);
+  ASSERT_EQ(bar.coarse_step.size(), 3u);
+  for (const std::size_t frame : {1u, 2u})
+  {
+    const double too_low = 0.5 * 9.81 * 0.01 * 0.02 * static_cast<double>(frame);
+    EXPECT_NEAR(bar.of_coarse_step_at(frame), 1.25 * too_low, 1e-6 * too_low);
+    EXPECT_LT(bar.halved_step[frame], 1e-6 * too_low);
+  }
+  EXPECT_TRUE(std::isnan(bar.of_coarse_step_at(3)));
 }
 
 TEST(bound_drape_error_bar, a_frame_in_which_coarse_and_fine_cloth_cross_keeps_its_bar)

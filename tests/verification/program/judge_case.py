@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What tests of `homespun judge` share: studies that kept positions, and judging them."""
+import json
 import pathlib
 import tempfile
 
@@ -34,6 +35,14 @@ class Judging(InFolder):
         path.parent.mkdir(parents=True, exist_ok=True)
         numpy.save(path, positions)
         return path
+
+    @staticmethod
+    def forget(study, name):
+        """What the run knows of a file, as if it had written it so."""
+        description = json.loads((study / "run.json").read_text())
+        for key in [key for key in description["files"] if key.endswith(name)]:
+            del description["files"][key]
+        (study / "run.json").write_text(json.dumps(description))
 
     def judge(self, *files, name="mine", study=None, report=False):
         return run("judge", study or self.study, *files, "--name", name, "--output",

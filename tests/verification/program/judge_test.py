@@ -16,7 +16,7 @@ import h5py
 import numpy
 
 import broken_cells_test
-from cli import CELLS, rows_of, run
+from cli import CELLS, LAYERED, rows_of, run
 from judge_case import JudgingFrames, JudgingLevels
 
 PEERS = CELLS.parents[1] / "python" / "peers"
@@ -106,6 +106,19 @@ class Judge(JudgingLevels):
         rows, result = self.judged(path)
         self.assertAlmostEqual(float(rows["strip-1-biot-0.1"]["error_mean_m"]), 2e-6, delta=5e-6)
         self.assertIn("its numbers tell 1e-05 m apart", result.stdout)
+        # Three significant digits: more decimals near zero, where they are worth nothing.
+        wanted[abs(wanted).sum(axis=1).argmin()] += [1.23e-7, 0.]
+        faces = "".join(f"3 {a} {b} {c}\n" for a, b, c in self.triangles)
+        ply = (f"ply\nformat ascii 1.0\nelement vertex {len(wanted)}\nproperty double x\n"
+               f"property double y\nproperty double z\nelement face {len(self.triangles)}\n"
+               "property list uchar int vertex_indices\nend_header\n")
+        path.unlink()
+        path = path.with_suffix(".ply")
+        path.write_text(ply + "".join(f"{x:.3g} {y:.3g} 0\n" for x, y in wanted) + faces)
+        self.assertRegex(self.judged(path)[1].stdout, r"its numbers tell [5-9][.\d]*e-05 m apart")
+        path.write_text(ply + "".join(f"{x!r} {y!r} 0\n" for x, y in wanted.tolist()) + faces)
+        self.assertNotIn("its numbers tell", self.judged(path)[1].stdout)
+        path.unlink()
         rows, _ = self.judged(self.write("strip-1-biot-0.1.npy", wanted.astype("f4")))
         self.assertAlmostEqual(float(rows["strip-1-biot-0.1"]["error_mean_m"]), 2e-6, delta=1e-8)
 
@@ -138,6 +151,8 @@ class Judge(JudgingLevels):
                 ("strip-1-biot-0.1", good[:-1], f"expected ({len(good)}, 2)"),
                 ("strip-1-biot-0.1", 1e3 * good, "expected positions in metres, in the order"),
                 ("strip-1-biot-0.1", good[order], "expected positions in metres, in the order"),
+                ("strip-1-biot-0.01", self.kept_positions("strip-1-biot-0.01") + [0., 4e-3],
+                 "expected positions in metres, in the order"),
                 ("strip-1-biot-0.1", good.astype(int), "astype"),
                 ("strip-1-biot-0.1", out_of_plane, "third column"),
                 ("strip-1-biot-0.2", good, "`strip-1-biot-0.2` is no level or frame of"),
@@ -221,11 +236,7 @@ class Judge(JudgingLevels):
                     file["rest"][0] += 1e-6
                 else:
                     file.attrs["mesh"] = numpy.bytes_(b"0123456789abcdef")
-            # As if the run had written it so.
-            description = json.loads((other / "run.json").read_text())
-            for key in [key for key in description["files"] if key.endswith(name)]:
-                del description["files"][key]
-            (other / "run.json").write_text(json.dumps(description))
+            self.forget(other, name)
             self.refused(words, path, study=other)
             shutil.rmtree(other)
 
@@ -283,7 +294,7 @@ class JudgeFrames(JudgingFrames):
         good = self.kept_frame(2)
         for frames, words, *options in (
                 ({2: good[:, :2]}, "expected three components"),
-                ({2: good[1:]}, f"expected ({len(good)}, 2) or ({len(good)}, 3)"),
+                ({2: good[1:]}, f"expected ({len(good)}, 3), a row"),
                 ({2: 1e3 * good}, "expected positions in metres"),
                 ({9: good}, "`biot-0009` is no level or frame of"),
                 ({2: good}, "--seconds: is of a level of `homespun strain`", "--seconds", 1),
@@ -305,6 +316,37 @@ class JudgeFrames(JudgingFrames):
                       result.stdout)
         self.assertNotIn("claims hold", result.stdout)
         self.assertNotIn("nan", result.stdout + result.stderr)
+
+
+class JudgeFramesWithBars(JudgingFrames):
+    @classmethod
+    def setUpClass(cls):
+        cls.make("drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells", LAYERED, "--cells",
+                 "2", "--duration", "0.05", "--references", "biot", "--no-frames")
+
+    def test_the_bar_has_what_the_step_changes_in_both_cloths_and_without_it_claims_are_open(self):
+        name = "biot-0001"
+        file = self.write(f"{name}.npy", self.kept_positions(name, "reference"))
+        with h5py.File(self.kept / f"{name}.h5") as kept:
+            shared = float(kept.attrs["coarse_time_step_uncertainty_m"][0])
+        self.assertGreater(shared, 0.)
+        known = self.rows[-1]
+        self.assertEqual((known["method"], known["frame"]), ("localized", "1"))
+        rows, result = self.judged(file)
+        self.assertEqual(rows[name]["reference_uncertainty_m"], known["reference_uncertainty_m"])
+        own = float(rows[name]["time_step_uncertainty_m"])
+        self.assertAlmostEqual(own / (float(known["time_step_uncertainty_m"]) + shared), 1.,
+                               delta=1e-12)
+        self.assertIn("2 of 2 claims hold", result.stdout)
+
+        without = self.folder / "without"
+        shutil.copytree(self.study, without)
+        with h5py.File(without / "layered" / "positions" / f"{name}.h5", "r+") as kept:
+            del kept.attrs["coarse_time_step_uncertainty_m"]
+        self.forget(without, f"{name}.h5")
+        result = self.judge(file, study=without)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("open: of some frame an error bar is not known", result.stdout)
 
 
 if __name__ == "__main__":
