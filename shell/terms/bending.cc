@@ -9,8 +9,11 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace homespun::shell
 {
@@ -186,6 +189,34 @@ std::vector<int> inside_two_rings(const meshes::TriangleMesh &rest)
   return inside;
 }
 
+/// Whether some triangles hang together with none of some vertices: panels of up to three quads
+/// across.
+bool leaves_out_a_panel(const meshes::TriangleMesh &rest, const std::vector<int> &inside)
+{
+  std::vector<int> panel(index(rest.n_vertices()), 0); // of each vertex, 1: with one inside
+  for (const int v : inside)
+    panel[index(v)] = 1;
+  const auto reached = [&](const int t)
+  {
+    int n = 0;
+    for (int k = 0; k < 3; ++k)
+      n += panel[index(rest.triangles(t, k))];
+    return n;
+  };
+  for (bool grows = true; std::exchange(grows, false);)
+    for (int t = 0; t < rest.n_triangles(); ++t)
+      if (const int n = reached(t); n > 0 && n < 3)
+      {
+        grows = true;
+        for (int k = 0; k < 3; ++k)
+          panel[index(rest.triangles(t, k))] = 1;
+      }
+  for (int t = 0; t < rest.n_triangles(); ++t)
+    if (reached(t) == 0)
+      return true;
+  return false;
+}
+
 /// One stiffness on all of some panels that lie flat and are not sewn.
 double gain_of(const meshes::ClothMesh &panels, const std::vector<int> &inside,
                const PlateStiffness &stiffness)
@@ -223,8 +254,8 @@ double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateSti
 {
   neighbours_of(mesh, stiffness); // its refusals
   const std::vector<int> inside = inside_two_rings(mesh.rest);
-  if (inside.empty())
-    return 0.;
+  if (leaves_out_a_panel(mesh.rest, inside))
+    return std::numeric_limits<double>::quiet_NaN();
   meshes::ClothMesh panels;
   panels.rest      = mesh.rest;
   panels.triangles = mesh.rest.triangles;
@@ -239,7 +270,13 @@ double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateSti
 std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
                                    const std::vector<PlateStiffness> &stiffness)
 {
-  if (const double gain = patch_test_gain(mesh, stiffness); gain > largest_patch_test_gain)
+  const double gain = patch_test_gain(mesh, stiffness);
+  if (std::isnan(gain))
+    throw meshes::BadInput(
+      "bending over hinges: a panel is no more than three quads wide, and whether the mesh makes "
+      "it too soft is not known; expected a finer mesh of it, or bending by edge angles "
+      "(shell/terms/edge_angles.h), with the linearly implicit or the implicit integrator");
+  if (gain > largest_patch_test_gain)
   {
     std::ostringstream text;
     text.precision(2);

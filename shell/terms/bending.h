@@ -37,8 +37,8 @@ namespace homespun::shell
 {
 /// What the plate gains by leaving a constant curvature that it could keep, over the energy of that
 /// [-]: the panels lie flat, each of one phase's stiffness, two rings of vertices along their
-/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. 0 where nothing is left
-/// inside the rings.
+/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. Not a number where a panel
+/// has nothing inside the rings: then it is not known.
 /// @param stiffness one per phase [N m]
 /// @throws BadInput as bending_term()
 double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness);
@@ -50,7 +50,7 @@ constexpr double largest_patch_test_gain = 0.01;
 /// @param stiffness one per phase of mesh.rest [N m], positive definite
 /// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges
 ///   of more than two triangles or of two that traverse it the same way; a mesh whose patch test
-///   gains more than the largest
+///   gains more than the largest, or is not known
 std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
                                    const std::vector<PlateStiffness> &stiffness);
 } // namespace homespun::shell

@@ -2,6 +2,7 @@
 #include "verification/drape/held_motion.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/lattice.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -13,7 +14,9 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double on_edge = 1e-9; ///< of a fraction
+/// Of a fraction of the sheet. What lies on an edge may do so by the tolerance of images alone, as
+/// in a mesh of single precision.
+constexpr double on_edge = 2. * meshes::image_tolerance;
 
 Eigen::RowVector3d moved(const Motion &motion, const Eigen::RowVector3d &start,
                          const Eigen::RowVector3d &centre, const double time)
