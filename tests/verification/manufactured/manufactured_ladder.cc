@@ -27,9 +27,9 @@ ManufacturedLadder climb(const ManufacturedCase &manufactured, const MPI_Comm co
     // and nothing is measured: then the one before is asked for. If that has a residual of more
     // than 1e8 tolerances, what it is wrong by has fallen by as much in the step.
     constexpr double jump = 1e8;
-    for (double loosening = 1e4;
-         manufactured.has_tolerance && loosening <= 1e12 && !(ladder.algebraic_error > 0.);
-         loosening *= 1e4)
+    for (double loosening = 100.;
+         manufactured.has_tolerance && loosening <= 1e14 && !(ladder.algebraic_error > 0.);
+         loosening *= 100.)
     {
       const Eigen::MatrixXd loose =
         manufactured
