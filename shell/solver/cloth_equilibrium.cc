@@ -55,7 +55,7 @@ ClothEquilibrium Cloth::solve_equilibrium(const double relative_tolerance, const
     }
     ++result.iterations;
     const double slope    = -forces.cwiseProduct(step).sum();
-    const double rounding = IncrementalPotential::round_off_of(energy, x, residual);
+    const double rounding = potential.round_off_of(energy, x, residual);
     double length = 1., next = std::numeric_limits<double>::infinity();
     Vectors trial;
     for (; solved && length > 1e-3; length *= 0.5)

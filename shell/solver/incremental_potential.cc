@@ -167,11 +167,15 @@ Vectors IncrementalPotential::linear_step(const Vectors &positions, const Vector
 }
 
 double IncrementalPotential::round_off_of(const double value, const Vectors &positions,
-                                          const Residual &residual)
+                                          const Residual &residual) const
 {
-  return std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(positions.rows())) *
-           positions.cwiseAbs().maxCoeff() * residual.size +
-         1e-13 * std::abs(value);
+  double sum = std::numeric_limits<double>::epsilon() *
+                 std::sqrt(static_cast<double>(positions.rows())) *
+                 positions.cwiseAbs().maxCoeff() * residual.size +
+               1e-13 * std::abs(value);
+  for (const auto &term : all_terms)
+    sum += term->round_off(positions);
+  return sum;
 }
 
 void IncrementalPotential::minimize(const Vectors &inertial, const double h,

@@ -79,8 +79,8 @@ public:
                     Hessian kind);
 
   /// What rounding does to a value of Φ [J]: what it changes by when every position moves by one
-  /// rounding, which counts where its terms cancel, and the round-off of its sum.
-  static double round_off_of(double value, const Vectors &positions, const Residual &residual);
+  /// rounding, which counts where its terms cancel, and the round-off of its sum and of its terms.
+  double round_off_of(double value, const Vectors &positions, const Residual &residual) const;
 
   /// dΦ/dx of the last assemble() (n,3) [N].
   const Vectors &gradient() const

@@ -37,11 +37,18 @@ namespace homespun::shell
 {
 /// What the plate gains by leaving a constant curvature that it could keep, over the energy of that
 /// [-]: the panels lie flat, each of one phase's stiffness, two rings of vertices along their
-/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. Not a number where a panel
-/// has nothing inside the rings: then it is not known.
+/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. Infinite where nothing is
+/// left inside the rings of a panel that is no lattice cut along one diagonal: then it is unknown.
 /// @param stiffness one per phase [N m]
 /// @throws BadInput as bending_term()
 double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness);
+
+/// Whether all triangles that share an edge are each other's images in its middle: there the gain
+/// is round-off, on panels however narrow.
+/// @param stiffness one per phase [N m]
+/// @throws BadInput as bending_term()
+bool is_cut_along_one_diagonal(const meshes::ClothMesh &mesh,
+                               const std::vector<PlateStiffness> &stiffness);
 
 /// The largest that is taken [-].
 constexpr double largest_patch_test_gain = 0.01;
@@ -50,7 +57,7 @@ constexpr double largest_patch_test_gain = 0.01;
 /// @param stiffness one per phase of mesh.rest [N m], positive definite
 /// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges
 ///   of more than two triangles or of two that traverse it the same way; a mesh whose patch test
-///   gains more than the largest, or is not known
+///   gains more than the largest, or an unknown part
 std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
                                    const std::vector<PlateStiffness> &stiffness);
 } // namespace homespun::shell

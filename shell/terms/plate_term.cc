@@ -7,9 +7,8 @@ std::unique_ptr<Term> plate_term(const meshes::ClothMesh &mesh,
                                  const std::vector<PlateStiffness> &stiffness,
                                  const PlateModel model)
 {
-  constexpr double round_off = 1e-9;
-  const auto is_exact        = [&]
-  { return mesh.triangles == mesh.rest.triangles && patch_test_gain(mesh, stiffness) < round_off; };
+  const auto is_exact = [&]
+  { return mesh.triangles == mesh.rest.triangles && is_cut_along_one_diagonal(mesh, stiffness); };
   if (model == PlateModel::hinges || (model == PlateModel::by_mesh && is_exact()))
     return bending_term(mesh, stiffness);
   return edge_angles_term(mesh, stiffness);

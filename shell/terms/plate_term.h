@@ -10,8 +10,8 @@ namespace homespun::shell
 {
 enum class PlateModel
 {
-  by_mesh, ///< hinges on a sheet without seams that passes their patch test to round-off: a lattice
-           ///< cut along one diagonal; else edge angles
+  by_mesh, ///< hinges on a sheet without seams that is a lattice cut along one diagonal; else edge
+           ///< angles
   hinges,  ///< or a refusal: the one that conserving steps can take
   edge_angles
 };

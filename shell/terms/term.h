@@ -67,6 +67,13 @@ public:
   /// E(x) [J], up to a constant that does not change within a step.
   virtual double energy(const Vectors &positions) const = 0;
 
+  /// What rounding does to energy() where it is a sum of what cancels [J]. Default: nothing beyond
+  /// a few roundings of E itself.
+  virtual double round_off(const Vectors & /*positions*/) const
+  {
+    return 0.;
+  }
+
   /// Adds dE/dx [N]; the forces are its negative.
   virtual void add_gradient(const Vectors &positions, Vectors &gradient) const = 0;
 
