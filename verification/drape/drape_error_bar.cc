@@ -83,6 +83,13 @@ double carried(const DrapeErrorBar &bar, const std::size_t frame, const double l
 }
 } // namespace
 
+double DrapeErrorBar::of_coarse_step_at(const std::size_t frame) const
+{
+  if (frame >= coarse_step.size())
+    return std::numeric_limits<double>::quiet_NaN();
+  return 1.25 * 2. * *std::max_element(coarse_step.begin(), coarse_step.begin() + frame + 1);
+}
+
 double DrapeErrorBar::of_mesh_at(const std::size_t frame, const double largest_there) const
 {
   return carried(*this, frame, largest_there,
@@ -93,13 +100,6 @@ double DrapeErrorBar::of_time_step_at(const std::size_t frame, const double larg
 {
   return carried(*this, frame, largest_there,
                  [this](const std::size_t k) { return 1.25 * 2. * halved_step[k]; });
-}
-
-double DrapeErrorBar::of_coarse_step_at(const std::size_t frame) const
-{
-  if (frame >= coarse_step.size())
-    return std::numeric_limits<double>::quiet_NaN();
-  return 1.25 * 2. * *std::max_element(coarse_step.begin(), coarse_step.begin() + frame + 1);
 }
 
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
