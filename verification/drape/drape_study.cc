@@ -38,6 +38,17 @@ StudyOptions options_of_study(StudyOptions options, const Scene &scene)
   return options;
 }
 
+/// What the term damping of a scene acts against.
+std::string damping_of(const Scene &scene)
+{
+  std::string parts;
+  if (scene.damping_rate > 0.)
+    parts = "against the air at rest";
+  if (scene.viscosity > 0.)
+    parts += std::string(parts.empty() ? "" : ", and ") + "in the rate of strain";
+  return parts.empty() ? "none: `Damping rate` and `Viscosity` are 0" : parts;
+}
+
 class DrapeStudy final : public StudyOfCells
 {
 public:
@@ -268,10 +279,12 @@ private:
   {
     nlohmann::ordered_json terms = nlohmann::ordered_json::array();
     for (const auto &[term, what] : all_terms())
-      terms.push_back({{"name", term},
-                       {"present", scene.has(term)},
-                       {scene.has(term) ? "parameters" : "why",
-                        scene.has(term) ? what : "the scene does not list it"}});
+      terms.push_back(
+        {{"name", term},
+         {"present", scene.has(term)},
+         {scene.has(term) ? "parameters" : "why", !scene.has(term)    ? "the scene does not list it"
+                                                  : term == "damping" ? damping_of(scene)
+                                                                      : what}});
     for (nlohmann::ordered_json &cell : cell_descriptions)
       cell["judged_method"] = judged_method(drape.output->error_rows(), cell["cell"]);
     for (const std::string &line : drape.output->worst_errors(main_variants))

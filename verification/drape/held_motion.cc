@@ -14,10 +14,6 @@ namespace homespun::verification
 {
 namespace
 {
-/// Of a fraction of the sheet. What lies on an edge may do so by the tolerance of images alone, as
-/// in a mesh of single precision.
-constexpr double on_edge = 2. * meshes::image_tolerance;
-
 Eigen::RowVector3d moved(const Motion &motion, const Eigen::RowVector3d &start,
                          const Eigen::RowVector3d &centre, const double time)
 {
@@ -57,6 +53,7 @@ SheetPlacement placement_of(const Scene &scene, const Eigen::RowVector2d &origin
 HeldMotion::HeldMotion(const Scene &scene, const SheetPlacement &placement,
                        const Eigen::RowVector2d &origin, const Eigen::Matrix2d &sides)
     : placement(placement)
+    , on_edge(2. * meshes::image_tolerance / scene.n1, 2. * meshes::image_tolerance / scene.n2)
 {
   for (const HeldPlace &held : scene.held)
   {
@@ -124,13 +121,13 @@ bool HeldMotion::holds(const HeldPart &place, const Eigen::RowVector2d &f) const
   if (place.held.place == "vertices")
     return std::any_of(place.fractions.begin(), place.fractions.end(),
                        [&](const Eigen::RowVector2d &of_vertex)
-                       { return (f - of_vertex).cwiseAbs().maxCoeff() < on_edge; });
+                       { return ((f - of_vertex).cwiseAbs().array() < on_edge).all(); });
   const std::string &name = place.held.place;
   const auto says         = [&](const char *word) { return name.find(word) != std::string::npos; };
-  return (!says("left") || std::abs(f(0)) < on_edge) &&
-         (!says("right") || std::abs(f(0) - 1.) < on_edge) &&
-         (!says("bottom") || std::abs(f(1)) < on_edge) &&
-         (!says("top") || std::abs(f(1) - 1.) < on_edge);
+  return (!says("left") || std::abs(f(0)) < on_edge(0)) &&
+         (!says("right") || std::abs(f(0) - 1.) < on_edge(0)) &&
+         (!says("bottom") || std::abs(f(1)) < on_edge(1)) &&
+         (!says("top") || std::abs(f(1) - 1.) < on_edge(1));
 }
 
 bool HeldMotion::holds(const HeldPart &place, const int vertex,

@@ -77,6 +77,9 @@ private:
   bool holds(const HeldPart &place, int vertex, const meshes::ClothMesh &garment) const;
 
   std::optional<SheetPlacement> placement;
+  /// By how much a fraction may miss an edge or a vertex and be on it, as cells may whose
+  /// coordinates are rounded.
+  Eigen::Array<double, 1, 2> on_edge = Eigen::Array<double, 1, 2>::Zero();
   std::vector<HeldPart> places;
   double waist = 0.; ///< height above which a vertex belongs to the waist [m]
 };

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 using namespace homespun;
@@ -13,10 +14,12 @@ using namespace homespun::verification;
 
 namespace
 {
-std::vector<Verdict> checks_of(const std::string &scene_name)
+std::vector<Verdict> checks_of(const std::string &scene_name, const double turns = 0.)
 {
   Scene scene = read_scene(std::string(CELLS) + "../scenes/" + scene_name + ".prm");
   scene.n1 = scene.n2 = 2;
+  if (turns > 0.)
+    scene.held = {{"left", {}, {Motion::Kind::rotate, {1., 0., 0.}, 2. * M_PI * turns, 10.}}};
   const homogenization::UnitCell cell =
     homogenization::read_unit_cell(std::string(CELLS) + "chevron.prm");
   const DrapedCell draped(scene, cell,
@@ -41,4 +44,6 @@ TEST(invariant_drape_checks, handles_start_at_rest_and_a_turned_sheet_is_the_tur
     EXPECT_LT(checks[2].value, 1e-12) << name;
   }
   EXPECT_EQ(checks_of("hang").size(), 2u); // nothing moves
+  for (const double turns : {0.25, 20., 200.})
+    EXPECT_NEAR(checks_of("pull", turns)[0].value, 2.998e-3, 1e-6) << turns;
 }

@@ -62,6 +62,32 @@ TEST(exact_held_motion, vertices_of_the_coarse_sheet_are_held_where_they_are_on_
   }
 }
 
+// What cells may miss their edges by, as where coordinates are of single precision, edges of sheets
+// may, too.
+TEST(exact_held_motion, rounded_coordinates_of_a_cell_hold_all_vertices_of_an_edge)
+{
+  meshes::HomogenizedCell unused;
+  unused.stiffness                     = Eigen::Matrix3d::Identity();
+  unused.areal_density                 = 1.;
+  const homogenization::UnitCell exact = homogenization::read_unit_cell(CELLS "layered.prm");
+  homogenization::UnitCell rounded     = exact;
+  const double side                    = std::sqrt(exact.lattice.area());
+  for (int v = 0; v < rounded.mesh.n_vertices(); ++v)
+    rounded.mesh.vertices.row(v) += 3e-8 * side * Eigen::RowVector2d(v % 3 - 1, v % 2);
+  for (const char *place : {"left", "right", "bottom", "top", "top left"})
+  {
+    const auto n_held = [&](const homogenization::UnitCell &cell)
+    {
+      const DrapedCell cloth(sheet_with({{place, {}, {}}}), cell, unused, Law::biot);
+      return cloth.fine_motion().vertices(cloth.fine).size();
+    };
+    EXPECT_EQ(n_held(rounded), n_held(exact)) << place;
+  }
+  const std::vector<int> corners = {0, 6, 19};
+  const DrapedCell cloth(sheet_with({{"vertices", corners, {}}}), rounded, unused, Law::biot);
+  EXPECT_EQ(cloth.fine_motion().vertices(cloth.fine).size(), corners.size());
+}
+
 TEST(exact_held_motion, both_cloths_turn_held_vertices_about_the_mean_of_those)
 {
   const std::vector<int> wanted = {0, 1, 4};

@@ -40,6 +40,12 @@ class Scenes(SceneCase):
                 found = json.loads((output / "drape.json").read_text())
                 listed = {term["name"] for term in found["terms"] if term["present"]}
                 self.assertIn("membrane", listed)
+                keys = found["parameters"]
+                for term in found["terms"]:
+                    if term["name"] == "damping" and term["present"]:
+                        for key, what in (("Damping rate", "air"), ("Viscosity", "strain")):
+                            self.assertEqual(what in term["parameters"], float(keys[key]) > 0,
+                                             (scene.name, term, keys[key]))
 
     def test_frames_open_elsewhere(self):
         output = self.folder / "frames"
