@@ -14,14 +14,21 @@ using meshes::at;
 
 namespace
 {
-/// The piece of a Clough-Tocher triangle that holds a point, and its coordinates there.
-std::pair<int, Eigen::Vector3d> in_piece(const Eigen::Vector3d &barycentric)
+/// The pieces of a Clough-Tocher triangle that hold a point, and its coordinates there: where
+/// pieces meet all of them, not the one that rounding chooses.
+std::vector<std::pair<int, Eigen::Vector3d>> in_pieces(const Eigen::Vector3d &barycentric)
 {
-  int farthest = 0; // corner, which the piece does not touch
-  barycentric.minCoeff(&farthest);
-  const int piece    = (farthest + 1) % 3;
-  const double least = barycentric(farthest);
-  return {piece, {barycentric(piece) - least, barycentric((piece + 1) % 3) - least, 3. * least}};
+  const double least = barycentric.minCoeff();
+  std::vector<std::pair<int, Eigen::Vector3d>> pieces;
+  for (int farthest = 0; farthest < 3; ++farthest) // corner, which the piece does not touch
+    if (barycentric(farthest) <= least + ThinPlate::snap)
+    {
+      const int piece = (farthest + 1) % 3;
+      const double on = barycentric(farthest);
+      pieces.push_back(
+        {piece, {barycentric(piece) - on, barycentric((piece + 1) % 3) - on, 3. * on}});
+    }
+  return pieces;
 }
 
 Eigen::Matrix<double, 3, 12> curvatures_of(const Eigen::Matrix<double, 3, 12> &second_derivatives)
@@ -79,12 +86,15 @@ CloughTocher ThinPlate::element(const int triangle) const
 
 ThinPlate::Shapes ThinPlate::shapes(const int triangle, const Eigen::Vector3d &barycentric) const
 {
-  const CloughTocher its    = element(triangle);
-  const auto [piece, point] = in_piece(barycentric);
-  Shapes rows;
-  rows.topRows<3>()    = its.value_and_gradient(piece, point);
-  rows.bottomRows<3>() = curvatures_of(its.second_derivatives(piece, point));
-  return rows;
+  const CloughTocher its = element(triangle);
+  const auto pieces      = in_pieces(barycentric);
+  Shapes rows            = Shapes::Zero();
+  for (const auto &[piece, point] : pieces)
+  {
+    rows.topRows<3>() += its.value_and_gradient(piece, point);
+    rows.bottomRows<3>() += curvatures_of(its.second_derivatives(piece, point));
+  }
+  return rows / static_cast<double>(pieces.size());
 }
 
 ThinPlate::Values ThinPlate::values(const int triangle, const Eigen::Vector3d &barycentric,

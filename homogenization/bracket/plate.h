@@ -41,6 +41,11 @@ public:
   int dof_of_side(int side) const;
   std::array<int, 12> dofs_of(int triangle) const;
 
+  /// By how much a barycentric coordinate may miss a line between pieces or triangles and be on it:
+  /// coordinates of a mesh are rounded, those of macro meshes finer than a cell by more.
+  static constexpr double snap = 2e-5;
+
+  /// Where pieces of the triangle meet, across which curvatures jump, the mean of theirs.
   /// @param barycentric coordinates in the triangle
   Shapes shapes(int triangle, const Eigen::Vector3d &barycentric) const;
   Values values(int triangle, const Eigen::Vector3d &barycentric,

@@ -31,18 +31,33 @@ struct CoarsePoint
   Eigen::Vector3d barycentric;
 };
 
+/// The triangles that hold a point: where some meet all of them, first the one below the diagonal
+/// of the quad at its upper right; rounding must not choose.
 /// @param fraction on the sheet @param n quads along a side
-CoarsePoint coarse_point(const Eigen::RowVector2d &fraction, const int n)
+std::vector<CoarsePoint> coarse_points(const Eigen::RowVector2d &fraction, const int n)
 {
-  // On a line of the mesh rounding must not choose the side.
-  constexpr double snap          = 1e-6;
+  constexpr double snap          = ThinPlate::snap;
   const Eigen::RowVector2d place = fraction * n;
-  const int i                    = std::clamp(static_cast<int>(place(0) + snap), 0, n - 1),
-            j                    = std::clamp(static_cast<int>(place(1) + snap), 0, n - 1);
-  const double f = place(0) - i, g = place(1) - j;
-  if (f + snap >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
-    return {2 * (j * n + i), {1. - f, f - g, g}};
-  return {2 * (j * n + i) + 1, {1. - g, f, g - f}}; // corners (0,0), (1,1), (0,1)
+  const auto quads               = [&](const int axis)
+  {
+    const auto quad = [&](const double at)
+    { return std::clamp(static_cast<int>(std::floor(at)), 0, n - 1); };
+    std::vector<int> all = {quad(place(axis) + snap)};
+    if (const int other = quad(place(axis) - snap); other != all.front())
+      all.push_back(other);
+    return all;
+  };
+  std::vector<CoarsePoint> points;
+  for (const int j : quads(1))
+    for (const int i : quads(0))
+    {
+      const double f = place(0) - i, g = place(1) - j;
+      if (f + snap >= g) // below the diagonal: corners (0,0), (1,0), (1,1)
+        points.push_back({2 * (j * n + i), {1. - f, f - g, g}});
+      if (g + snap >= f) // corners (0,0), (1,1), (0,1)
+        points.push_back({2 * (j * n + i) + 1, {1. - g, f, g - f}});
+    }
+  return points;
 }
 
 /// The homogenized plate of a sheet on a mesh of n x n quads.
@@ -56,10 +71,14 @@ struct MacroPlate
   {
   }
 
+  /// Where triangles meet the mean of theirs, which are of one size.
   ThinPlate::Values values(const Eigen::RowVector2d &fraction, const Eigen::VectorXd &w) const
   {
-    const CoarsePoint point = coarse_point(fraction, n);
-    return plate.plate.values(point.triangle, point.barycentric, w);
+    const std::vector<CoarsePoint> points = coarse_points(fraction, n);
+    ThinPlate::Values sum                 = ThinPlate::Values::Zero();
+    for (const CoarsePoint &point : points)
+      sum += plate.plate.values(point.triangle, point.barycentric, w);
+    return sum / static_cast<double>(points.size());
   }
 
   const meshes::Sheet &sheet;
@@ -126,7 +145,8 @@ BentState flat_triangles(const meshes::Sheet &sheet, const Eigen::MatrixX3d &cor
   BentState state(sheet.mesh.n_vertices(), 6);
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
   {
-    const CoarsePoint point = coarse_point(sheet.fraction(sheet.mesh.vertices.row(v)), sheet.n1);
+    const CoarsePoint point =
+      coarse_points(sheet.fraction(sheet.mesh.vertices.row(v)), sheet.n1).front();
     Eigen::Matrix3d its;
     for (int k = 0; k < 3; ++k)
       its.row(k) = corners.row(coarse.triangles(point.triangle, k));

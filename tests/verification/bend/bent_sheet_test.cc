@@ -260,3 +260,24 @@ TEST(invariant_bent_sheet, errors_do_not_know_how_vertices_are_numbered)
     EXPECT_NEAR(there[m].normal / here[m].normal, 1., 1e-6) << bending_methods[m];
   }
 }
+
+// Vertices of the cell lie on lines of the macro mesh, across which curvatures jump.
+TEST(invariant_bent_sheet, errors_do_not_know_where_the_cell_lies_nor_how_it_is_turned)
+{
+  const homogenization::UnitCell unit = three_stripes(4, 10);
+  homogenization::UnitCell shifted = unit, turned = unit;
+  shifted.mesh.vertices.rowwise() += side * Eigen::RowVector2d(0.37, -1.21);
+  const Eigen::Matrix2d turn = tests::rotation<2>(0.5);
+  turned.mesh.vertices       = (unit.mesh.vertices * turn.transpose()).eval();
+  turned.lattice.vectors     = (unit.lattice.vectors * turn.transpose()).eval();
+  const auto here            = errors_of(BendingCell(unit), "cantilever-1", 3, 4);
+  for (const homogenization::UnitCell &same : {shifted, turned})
+  {
+    const auto there = errors_of(BendingCell(same), "cantilever-1", 3, 4);
+    for (std::size_t m = 0; m < here.size(); ++m)
+    {
+      EXPECT_NEAR(there[m].position / here[m].position, 1., 1e-6) << bending_methods[m];
+      EXPECT_NEAR(there[m].normal / here[m].normal, 1., 1e-6) << bending_methods[m];
+    }
+  }
+}
