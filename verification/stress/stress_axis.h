@@ -37,7 +37,8 @@ enum class TheoryOfEnd
 struct StressAxis
 {
   std::string axis, of, value_is, criterion;
-  double limit = 0.;          ///< of the error, written before any value is run
+  bool is_shipped = true;     ///< what it is of: limits are published of nothing else
+  double limit    = 0.;       ///< of the error, written before any value is run
   std::vector<double> ladder; ///< from harmless to hard
   std::function<StressAnswer(double value)>
     at; ///< throws BadInput, NotConverged, which end the axis

@@ -2,8 +2,10 @@
 #include "verification/stress/stress_study.h"
 
 #include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/energy_order.h"
+#include "verification/cell/study_inputs.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/command/data_folder.h"
 #include "verification/record/number_text.h"
@@ -19,6 +21,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -58,6 +61,14 @@ std::vector<PublishedLimitRow> published_limits()
   if (!std::filesystem::exists(path))
     return {};
   return read_table<PublishedLimitRow>(path);
+}
+
+/// Whether a cell is the shipped one of its name.
+bool is_shipped(const UnitCell &cell)
+{
+  const std::string file = cells_folder() + "/" + cell.name + ".prm";
+  return std::filesystem::exists(file) &&
+         fingerprint(homogenization::read_unit_cell(file)) == fingerprint(cell);
 }
 
 class StressStudy final : public StudyOfCells
@@ -105,22 +116,29 @@ private:
   void collect(const std::vector<Eigen::Matrix3d> &by_all_ranks)
   {
     std::vector<SheetStiffness> sheets;
+    std::vector<bool> shipped; // of each
     for (const UnitCell &cell : cells().empty() ? made_cells() : cells())
     {
       const meshes::HomogenizedCell homogenized =
         homogenization::homogenized_cell(cell, solved(cell), provenance_line());
       sheets.push_back({cell.name, homogenized.stiffness, homogenized.areal_density});
-      add(cell_axes(cell, options.most_triangles));
-      add(localization_axes(homogenized, cell.name));
+      shipped.push_back(cells().empty() || is_shipped(cell));
+      add(cell_axes(cell, options.most_triangles), shipped.back());
+      add(localization_axes(homogenized, cell.name), shipped.back());
     }
     for (std::size_t k = 0; k < by_all_ranks.size(); ++k)
-      add({ranks_axis(cells()[k], by_all_ranks[k])});
-    for (const SheetStiffness &sheet :
-         with_twins_of_yarn(cells().empty() ? built_in_stiffnesses() : sheets))
+      add({ranks_axis(cells()[k], by_all_ranks[k])}, shipped[k]);
+    if (cells().empty())
     {
-      add(sheet_axes(sheet));
-      add(scene_axes(sheet));
+      sheets = built_in_stiffnesses();
+      shipped.assign(sheets.size(), true);
     }
+    for (std::size_t k = 0; k < sheets.size(); ++k)
+      for (const SheetStiffness &sheet : with_twins_of_yarn({sheets[k]}))
+      {
+        add(sheet_axes(sheet), shipped[k]);
+        add(scene_axes(sheet), shipped[k]);
+      }
     std::set<std::pair<std::string, std::string>> keys;
     for (const StressAxis &one : axes)
       if (!keys.insert({one.axis, one.of}).second)
@@ -128,9 +146,13 @@ private:
                                "`; two cells have one name: rename a file");
   }
 
-  void add(const std::vector<StressAxis> &some)
+  void add(std::vector<StressAxis> some, const bool is_shipped)
   {
-    axes.insert(axes.end(), some.begin(), some.end());
+    for (StressAxis &one : some)
+    {
+      one.is_shipped = is_shipped;
+      axes.push_back(std::move(one));
+    }
   }
 
   /// That several ranks give the C^H of one.
@@ -197,8 +219,9 @@ private:
       { return row.axis == one.axis && row.of == one.of; };
       const auto shipped = std::find_if(published.begin(), published.end(), is_its_own);
       const auto found   = std::find_if(limits->rows().begin(), limits->rows().end(), is_its_own);
-      if (const auto verdict = verdict_of(one, found == limits->rows().end() ? LimitRow() : *found,
-                                          shipped == published.end() ? nullptr : &*shipped))
+      if (const auto verdict =
+            verdict_of(one, found == limits->rows().end() ? LimitRow() : *found,
+                       !one.is_shipped || shipped == published.end() ? nullptr : &*shipped))
         verdicts.push_back(*verdict);
     }
     return {{{"axes", axes.size()}}, what_was_left_out(n_ranks()), notes};
