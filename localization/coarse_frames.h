@@ -18,6 +18,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,27 @@ struct Frame
   Eigen::Vector3d strain;             ///< E11, E22, gamma12 [-]
   Eigen::Matrix<double, dim, 2> lift; ///< [-]
 };
+
+/// Principal values of a strain E11, E22, gamma12: middle +- radius [-].
+struct PrincipalStrain
+{
+  double middle, radius;
+
+  /// max(|e1|, |e2|)
+  double largest() const
+  {
+    return std::abs(middle) + radius;
+  }
+  /// max(0, −e2), how much shorter it is than at rest where it is so most
+  double compression() const
+  {
+    return std::max(0., radius - middle);
+  }
+};
+inline PrincipalStrain principal_strain(const Eigen::Vector3d &strain)
+{
+  return {0.5 * (strain(0) + strain(1)), 0.5 * std::hypot(strain(0) - strain(1), strain(2))};
+}
 
 /// Strains and lifts of a coarse mesh in motion.
 template <int dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cells laid over a coarse cloth of any shape, for Python: an OBJ file, or arrays.
+#include "localization/garment/unit_question.h"
 #include "meshes/files/obj_file.h"
 #include "meshes/files/polygons.h"
 #include "meshes/garment/fine_cloth.h"
@@ -23,14 +24,47 @@ namespace fs = std::filesystem;
 using meshes::ClothMesh;
 using meshes::HomogenizedCell;
 
-ClothMesh cloth_in(const fs::path &file, const double unit)
+/// How the numbers of a file are taken.
+struct Reading
+{
+  double unit, vt_unit;
+  bool is_flat, accepts_strain;
+};
+
+void check_unit(const char *name, const double unit)
+{
+  if (!(unit > 0.) || !std::isfinite(unit))
+    throw meshes::BadInput(std::string(name) + ": found " + std::string(py::str(py::float_(unit))) +
+                           "; expected metres per unit, as 0.01 of centimetres");
+}
+
+/// @throws BadInput also where its units are questionable
+ClothMesh cloth_in(const HomogenizedCell &cell, const fs::path &file, const Reading &reading)
 {
   meshes::Polygons mesh = meshes::read_polygons(file);
-  mesh.positions *= unit;
-  if (!mesh.has_vt)
-    return meshes::flat_cloth(mesh, file);
-  ClothMesh cloth = meshes::read_cloth(file, unit);
-  cloth.positions = mesh.positions;
+  mesh.positions *= reading.unit;
+  localization::RestUnits units;
+  units.file    = file;
+  units.unit    = reading.unit;
+  units.vt_unit = reading.vt_unit;
+  units.has_vt  = mesh.has_vt && !reading.is_flat;
+  units.answer  = localization::AnswerBy::keyword;
+  ClothMesh cloth =
+    units.has_vt ? meshes::read_cloth(file, reading.vt_unit) : meshes::flat_cloth(mesh, file);
+  if (units.has_vt)
+  {
+    cloth.positions   = mesh.positions;
+    units.may_be_flat = meshes::is_flat(mesh);
+  }
+  if (reading.accepts_strain)
+    return cloth;
+  std::string question =
+    localization::question_of_cells(cloth, std::sqrt(cell.lattice.area()), units);
+  if (question.empty() && units.has_vt)
+    question =
+      localization::question_of_strain(cloth, {cloth.rest, {}}, file, mesh.positions, units);
+  if (!question.empty())
+    throw meshes::BadInput(question);
   return cloth;
 }
 
@@ -50,6 +84,16 @@ std::unique_ptr<LaidGarment> laid(const HomogenizedCell &cell, ClothMesh cloth,
 meshes::Grain grain_of(const py::object &origin, const double angle)
 {
   return {*Taken<Eigen::RowVector2d>(origin, "origin"), angle * std::acos(-1.) / 180.};
+}
+
+std::unique_ptr<LaidGarment> laid_on_arrays(const HomogenizedCell &cell, const py::object &rest,
+                                            const py::object &triangles, const py::object &origin,
+                                            const double angle, const long max_triangles)
+{
+  ClothMesh cloth           = cloth_of(rest, triangles, py::none());
+  const meshes::Grain grain = grain_of(origin, angle);
+  const py::gil_scoped_release others_run;
+  return laid(cell, std::move(cloth), grain, max_triangles);
 }
 } // namespace
 
@@ -89,34 +133,30 @@ void declare_garment(py::module_ &module)
                       "outlines: what Upsampler takes where there is no Sheet.")
     .def(py::init(
            [](const HomogenizedCell &cell, const fs::path &file, const double unit,
+              const double vt_unit, const bool flat, const bool accept_strain,
               const py::object &origin, const double angle, const long max_triangles)
            {
-             if (!(unit > 0.) || !std::isfinite(unit))
-               throw meshes::BadInput("unit: found " + std::string(py::str(py::float_(unit))) +
-                                      "; expected metres per unit, as 0.01 of centimetres");
+             check_unit("unit", unit);
+             check_unit("vt_unit", vt_unit);
              const meshes::Grain grain = grain_of(origin, angle);
              const py::gil_scoped_release others_run;
-             return laid(cell, cloth_in(file, unit), grain, max_triangles);
+             return laid(cell, cloth_in(cell, file, {unit, vt_unit, flat, accept_strain}), grain,
+                         max_triangles);
            }),
          py::arg("cell"), py::arg("file"), py::kw_only(), py::arg("unit") = 1.,
+         py::arg("vt_unit") = 1., py::arg("flat") = false, py::arg("accept_strain") = false,
          py::arg("origin") = py::make_tuple(0., 0.), py::arg("angle") = 0.,
          py::arg("max_triangles") = most_triangles,
          "file: an OBJ whose `vt` are the panels at rest, or which is flat where it has none; or a "
-         "flat PLY. unit: metres per unit of the file. origin (2,) [m]: a rest point that is a "
-         "corner of a cell; angle [degrees] of the cells to the first rest axis. Raises BadInput "
-         "with what is wrong with the file, or where the fine mesh would have more than "
-         "max_triangles.")
-    .def(py::init(
-           [](const HomogenizedCell &cell, const py::object &rest, const py::object &triangles,
-              const py::object &origin, const double angle, const long max_triangles)
-           {
-             ClothMesh cloth           = cloth_of(rest, triangles, py::none());
-             const meshes::Grain grain = grain_of(origin, angle);
-             const py::gil_scoped_release others_run;
-             return laid(cell, std::move(cloth), grain, max_triangles);
-           }),
-         py::arg("cell"), py::arg("rest"), py::arg("triangles"), py::kw_only(),
-         py::arg("origin") = py::make_tuple(0., 0.), py::arg("angle") = 0.,
+         "flat PLY. unit: metres per unit of its positions; vt_unit: metres per unit of `vt`. "
+         "flat: take the rest state from the positions of a flat mesh although it has `vt`. "
+         "origin (2,) [m]: a rest point that is a corner of a cell; angle [degrees] of the cells "
+         "to the first rest axis. Raises BadInput with what is wrong with the file, where the fine "
+         "mesh would have more than max_triangles, and, unless accept_strain, where the mean "
+         "strain of its positions is above 50 %, the mean compression above 30 %, or a triangle "
+         "longer than a hundred cells, which mostly mean units that differ.")
+    .def(py::init(&laid_on_arrays), py::arg("cell"), py::arg("rest"), py::arg("triangles"),
+         py::kw_only(), py::arg("origin") = py::make_tuple(0., 0.), py::arg("angle") = 0.,
          py::arg("max_triangles") = most_triangles,
          "rest (n, 2) [m] and triangles (m, 3): a flat mesh, counterclockwise.")
     .def_property_readonly(

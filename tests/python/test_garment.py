@@ -55,6 +55,23 @@ class Garments(WithCell):
                                             f"{2 * self.n**2} coarse triangles, "
                                             f"{len(self.sheet.triangles)} fine>")
 
+    def test_vt_of_another_unit_are_asked_about_and_taken_as_told(self):
+        of_sheet = homespun.Upsampler(self.cell, self.sheet).upsample(self.moved)
+        size = self.n * SIDE
+        normalised = self.folder / "normalised.obj"
+        write_obj(normalised, self.flat, self.sheet.coarse_triangles, self.rest / size)
+        self.refused(lambda: homespun.Garment(self.cell, normalised),
+                     "normalised.obj: against its vt it is pressed together by 95 % in the mean; "
+                     "expected 30 % at most: are positions and vt in metres? `vt_unit=0.05` makes "
+                     "them fit where positions are, `unit=20` where vt is, `flat=True` takes x and "
+                     "y of the rest mesh for the rest state; `accept_strain=True` goes on as it is",
+                     kind=homespun.BadInput)
+        for keywords in ({"vt_unit": size}, {"flat": True}):
+            self.assert_same_cloth(homespun.Garment(self.cell, normalised, **keywords), self.moved,
+                                   of_sheet)
+        as_it_is = homespun.Garment(self.cell, normalised, accept_strain=True)
+        self.assertAlmostEqual(as_it_is.vertices.max(), 1., delta=1e-9)
+
     def test_cells_begin_at_the_origin_and_turn_by_the_angle(self):
         garment = homespun.Garment(self.cell, self.obj, origin=(SIDE / 2, 0), angle=90)
         # Stripes of the cell across axis 1 now lie across axis 2, and begin with the soft one.
@@ -84,19 +101,23 @@ class Garments(WithCell):
     def test_refusals(self):
         self.refused(lambda: homespun.Garment(self.cell, "nowhere.obj"), "nowhere.obj")
         for unit in (0., -1e-9, numpy.nan):
-            self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=unit),
-                         f"unit: found {unit}; expected metres per unit")
+            for name in ("unit", "vt_unit"):
+                self.refused(lambda: homespun.Garment(self.cell, self.obj, **{name: unit}),
+                             f"{name}: found {unit}; expected metres per unit")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, origin=[0.]), "origin: found")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, angle=numpy.nan), "angle")
         bent = self.folder / "bent.obj"
         write_obj(bent, self.moved, self.sheet.coarse_triangles)
         self.refused(lambda: homespun.Garment(self.cell, bent), "bent.obj", "vt")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1000.),
+                     "which are 1400 cells; expected a hundred at most: is it in metres? "
+                     "`unit=0.01` takes rest mesh and frames in centimetres", "`accept_strain=True`")
+        self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1000., accept_strain=True),
                      f"would be a fine mesh of {25000000 * len(self.cell.triangles)}; expected at "
                      "most max_triangles = 10000000", "is it in metres?")
         self.refused(lambda: homespun.Garment(self.cell, self.rest, self.sheet.coarse_triangles,
                                               max_triangles=10), "max_triangles = 10:")
-        self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1e12),
+        self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1e12, accept_strain=True),
                      f"cells: 2.5e+25 of {len(self.cell.triangles)} triangles would be a fine mesh")
         for origin in (1e15, -1e30, 1e300, 1e308):
             self.refused(lambda: homespun.Garment(self.cell, self.obj, origin=(origin, 0.)),

@@ -10,20 +10,6 @@
 
 namespace homespun::verification
 {
-namespace
-{
-/// Half of the trace of a symmetric 2 x 2 matrix, and half of the distance of its eigenvalues.
-struct Principal
-{
-  Principal(const double a11, const double a22, const double a12)
-      : middle(0.5 * (a11 + a22))
-      , radius(std::hypot(0.5 * (a11 - a22), a12))
-  {
-  }
-  double middle, radius;
-};
-} // namespace
-
 CoarseIndicators::CoarseIndicators(const meshes::ClothMesh &given, const double cell_side)
     : coarse(given)
     , cell_side(cell_side)
@@ -58,10 +44,10 @@ TriangleIndicators CoarseIndicators::of(const meshes::SpacePoints &positions) co
   TriangleIndicators result = {Eigen::VectorXd(m), Eigen::VectorXd(m), Eigen::VectorXd(m)};
   for (int t = 0; t < m; ++t)
   {
-    const Eigen::Vector3d E = frames.of_triangle(t, at_rest_vertices).strain;
-    const Principal principal(E(0), E(1), 0.5 * E(2));
-    result.strain(t)      = std::abs(principal.middle) + principal.radius;
-    result.compression(t) = std::max(0., principal.radius - principal.middle);
+    const localization::PrincipalStrain principal =
+      localization::principal_strain(frames.of_triangle(t, at_rest_vertices).strain);
+    result.strain(t)      = principal.largest();
+    result.compression(t) = principal.compression();
     // Columns: derivatives of (E11, E22, gamma12 / sqrt(2)) along the axes; the largest stretch of
     // that map of directions is its largest singular value.
     Eigen::Matrix<double, 3, 2> gradient = Eigen::Matrix<double, 3, 2>::Zero();
@@ -70,8 +56,10 @@ TriangleIndicators CoarseIndicators::of(const meshes::SpacePoints &positions) co
                   shape_gradients[static_cast<std::size_t>(t)].col(k).transpose();
     gradient.row(2) /= std::sqrt(2.);
     const Eigen::Matrix2d square = gradient.transpose() * gradient;
-    const Principal largest(square(0, 0), square(1, 1), square(0, 1));
-    result.change(t) = cell_side * std::sqrt(largest.middle + largest.radius);
+    result.change(t) =
+      cell_side *
+      std::sqrt(localization::principal_strain({square(0, 0), square(1, 1), 2. * square(0, 1)})
+                  .largest()); // positive, both
   }
   return result;
 }

@@ -21,7 +21,7 @@ RestMesh read_rest(const UpsampleOptions &options)
   RestMesh rest;
   rest.faces = read_in_metres(options.rest_file, options);
   rest.units = {options.rest_file, options.unit, options.vt_unit,
-                rest.faces.has_vt && !options.is_flat, false};
+                rest.faces.has_vt && !options.is_flat};
   rest.cloth = rest.units.has_vt ? meshes::read_cloth(options.rest_file, options.vt_unit)
                                  : meshes::flat_cloth(rest.faces, options.rest_file);
   if (rest.units.has_vt)
@@ -33,8 +33,9 @@ RestMesh read_rest(const UpsampleOptions &options)
 }
 
 double check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
-                    const CoarseIndicators &rest_indicators, const UpsampleOptions &options)
+                    const UpsampleOptions &options)
 {
+  const localization::CoarseFrames<3> coarse(rest.cloth.rest, {});
   std::vector<std::string> faults;
   double farthest = 0.;
   for (const FrameFile &frame : frames)
@@ -44,13 +45,7 @@ double check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
       farthest            = std::max(farthest, mesh.positions.cwiseAbs().maxCoeff());
       std::string fault   = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
       if (fault.empty() && !options.accepts_strain)
-      {
-        const TriangleIndicators of = rest_indicators.of(mesh.positions);
-        const auto mean             = [&](const Eigen::VectorXd &values)
-        { return rest_indicators.row_of(values, UpsampleRow::none, mesh.positions).mean; };
-        fault = question_of_strain(rest.cloth, frame.file, mesh.positions, mean(of.strain),
-                                   mean(of.compression), rest.units);
-      }
+        fault = question_of_strain(rest.cloth, coarse, frame.file, mesh.positions, rest.units);
       if (!fault.empty())
         faults.push_back(fault);
     }

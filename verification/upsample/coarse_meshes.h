@@ -2,11 +2,10 @@
 // The coarse meshes of another program: the rest mesh, and whether each frame is one of it.
 #pragma once
 
+#include "localization/garment/unit_question.h"
 #include "meshes/cloth/cloth_mesh.h"
 #include "meshes/files/polygons.h"
-#include "verification/upsample/coarse_indicators.h"
 #include "verification/upsample/frame_files.h"
-#include "verification/upsample/unit_question.h"
 #include "verification/upsample/upsample_options.h"
 
 #include <string>
@@ -19,7 +18,7 @@ struct RestMesh
 {
   meshes::Polygons faces;
   meshes::ClothMesh cloth;
-  RestUnits units;
+  localization::RestUnits units;
 };
 
 /// Reads a mesh with its positions in metres.
@@ -28,9 +27,8 @@ meshes::Polygons read_in_metres(const std::string &file, const UpsampleOptions &
 /// @throws BadInput where it is no cloth
 RestMesh read_rest(const UpsampleOptions &options);
 
-/// @param rest_indicators those of the rest mesh
 /// @return the largest coordinate of all frames [m]
 /// @throws BadInput with all that is wrong with any frame, and what has to be asked about its unit
 double check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
-                    const CoarseIndicators &rest_indicators, const UpsampleOptions &options);
+                    const UpsampleOptions &options);
 } // namespace homespun::verification

@@ -77,7 +77,7 @@ public:
     if (const std::string question = question_of_cells(rest.cloth, cell_side, rest.units);
         !question.empty() && !options.accepts_strain)
       throw meshes::BadInput(question);
-    farthest = check_frames(frames, rest, CoarseIndicators(rest.cloth, cell_side), options);
+    farthest                  = check_frames(frames, rest, options);
     const meshes::Grain grain = {{options.origin[0], options.origin[1]},
                                  options.angle * M_PI / 180.};
     fine                      = std::make_unique<UpsampledCloth>(

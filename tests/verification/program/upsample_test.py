@@ -192,7 +192,7 @@ class Results(Upsampling):
     def test_another_unit_is_asked_about_before_anything_is_written_and_answered(self):
         for frame, words in (
                 (self.frame("mm.obj", 1000. * self.vertices),
-                 "lengths differ by a factor of 1e+03"),
+                 "lengths differ by a factor of 1000:"),
                 (self.frame("pressed.obj", 0.6 * self.vertices), "pressed together by 40 %"),
                 (self.frame("drawn.obj", 1.6 * self.vertices), "strained by 60 %")):
             said = self.upsample(frame, status=2)

@@ -4,12 +4,20 @@
 // each side. Both are asked about before anything is written.
 #pragma once
 
+#include "localization/coarse_frames.h"
 #include "meshes/cloth/cloth_mesh.h"
 
 #include <string>
 
-namespace homespun::verification
+namespace homespun::localization
 {
+/// How an answer is given: `--vt-unit 0.01`, or in Python `vt_unit=0.01`.
+enum class AnswerBy
+{
+  option,
+  keyword
+};
+
 /// Where the rest state comes from, as far as its unit can be answered for.
 struct RestUnits
 {
@@ -18,6 +26,7 @@ struct RestUnits
   double vt_unit   = 1.;    ///< metres per unit of vt
   bool has_vt      = false; ///< the rest state is that of vt
   bool may_be_flat = false; ///< it is, and x and y of the mesh would be another
+  AnswerBy answer  = AnswerBy::option;
 };
 
 /// Above this mean strain, or mean compression, a frame is asked about: parts of a cloth may go
@@ -33,12 +42,12 @@ constexpr double questionable_cells = 100.;
 std::string question_of_cells(const meshes::ClothMesh &rest, double cell_side,
                               const RestUnits &units);
 
-/// What to answer where the mean strain of a frame, or its mean compression, is questionable; empty
-/// where they are not.
+/// What to answer where the mean strain of a frame, or its mean compression, by rest area, is
+/// questionable; empty where they are not.
+/// @param coarse of the rest state
 /// @param frame its file
 /// @param positions (n,3) [m]
-/// @param strain, compression means by rest area
-std::string question_of_strain(const meshes::ClothMesh &rest, const std::string &frame,
-                               const meshes::SpacePoints &positions, double strain,
-                               double compression, const RestUnits &units);
-} // namespace homespun::verification
+std::string question_of_strain(const meshes::ClothMesh &rest, const CoarseFrames<3> &coarse,
+                               const std::string &frame, const meshes::SpacePoints &positions,
+                               const RestUnits &units);
+} // namespace homespun::localization
