@@ -111,7 +111,8 @@ class Garments(WithCell):
         self.refused(lambda: homespun.Garment(self.cell, bent), "bent.obj", "vt")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1000.),
                      "which are 1400 cells; expected a hundred at most: is it in metres? "
-                     "`unit=0.01` takes rest mesh and frames in centimetres", "`accept_strain=True`")
+                     "`unit=0.01` takes rest mesh and frames in centimetres",
+                     "`accept_strain=True`")
         self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1000., accept_strain=True),
                      f"would be a fine mesh of {25000000 * len(self.cell.triangles)}; expected at "
                      "most max_triangles = 10000000", "is it in metres?")
