@@ -91,20 +91,25 @@ std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &lev
          percent("unexplained-bar") + " of the error";
 }
 
-/// What a claim is that does not hold at a level: open beyond the loss of the law, where P2 and a
-/// second code may come to other equilibria.
-Outcome outcome_of_miss(const std::vector<LevelRow> &levels, const BudgetRow &level)
+/// What is not found where P2 and a second code may come to other equilibria, beyond the loss of
+/// the law, is open.
+struct Miss
 {
-  return level.strain > elliptic_up_to(levels, level.cell, level.load, level.reference)
-           ? Outcome::inconclusive
-           : Outcome::fail;
+  Outcome outcome;
+  std::string note; ///< for the limit
+};
+
+Miss miss_at(const std::vector<LevelRow> &levels, const BudgetRow &level)
+{
+  const double lost = elliptic_up_to(levels, level.cell, level.load, level.reference);
+  if (level.strain > lost)
+    return {Outcome::inconclusive, "; the law is lost at " + percent_text(lost)};
+  return {Outcome::fail, ""};
 }
 
 /// @param bar_of_reference per cell side; not a number where there is none
-/// @param missed see outcome_of_miss()
 void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
-                 const double bar_of_reference, const Outcome missed,
-                 std::vector<Verdict> &verdicts)
+                 const double bar_of_reference, const Miss &miss, std::vector<Verdict> &verdicts)
 {
   const Words words = words_of(level);
   const auto with   = [&](const char *name, const Word &word)
@@ -117,12 +122,12 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
   if (is_zero(total, level.strain))
   {
     verdicts.push_back(judged("budget.zero", with("limit", solved_to),
-                              is_zero(sum, level.strain) ? Outcome::pass : missed,
+                              is_zero(sum, level.strain) ? Outcome::pass : Outcome::fail,
                               sum / level.strain));
     return;
   }
-  const auto outcome_of = [missed](const double value, const bool holds) {
-    return !std::isfinite(value) ? Outcome::inconclusive : holds ? Outcome::pass : missed;
+  const auto outcome_of = [](const double value, const bool holds, const Outcome otherwise) {
+    return !std::isfinite(value) ? Outcome::inconclusive : holds ? Outcome::pass : otherwise;
   };
   const double unexplained = mean_of(rows, level, "unexplained") / total,
                bar         = mean_of(rows, level, "unexplained-bar") / total;
@@ -134,19 +139,22 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
                                    : "<= " + short_text(bar) +
                                        (bar > widest_bar ? "; a bar above a fifth of the error "
                                                            "decides nothing"
-                                                         : "")),
+                                                         : "") +
+                                       miss.note),
              !is_known           ? Outcome::inconclusive
-             : unexplained > bar ? missed
+             : unexplained > bar ? miss.outcome
              : bar > widest_bar  ? Outcome::inconclusive
                                  : Outcome::pass,
              unexplained));
-  const double beyond_solvers = mean_of(rows, level, "reference") - solved_to * level.strain,
-               covered        = beyond_solvers / bar_of_reference;
+  const double beyond_solvers =
+                 larger(0., mean_of(rows, level, "reference") - solved_to * level.strain),
+               covered = beyond_solvers / bar_of_reference;
   if (std::isfinite(bar_of_reference))
-    verdicts.push_back(
-      judged("budget.error-bar", words, outcome_of(covered, covered <= 1.), covered));
+    verdicts.push_back(judged("budget.error-bar", with("note", miss.note),
+                              outcome_of(covered, covered <= 1., miss.outcome), covered));
   const double solver = mean_of(rows, level, "solver") / total;
-  verdicts.push_back(judged("budget.solvers", words, outcome_of(solver, solver <= 0.01), solver));
+  verdicts.push_back(
+    judged("budget.solvers", words, outcome_of(solver, solver <= 0.01, Outcome::fail), solver));
 }
 
 /// Levels up to 2 %: beyond, the third order shows.
@@ -250,10 +258,9 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
 {
   std::vector<Verdict> verdicts;
   at_judged_levels(strain_rows,
-                   [&](const BudgetRow &level)
-                   {
+                   [&](const BudgetRow &level) {
                      judge_level(budget_rows, level, bar_of(strain_rows, level),
-                                 outcome_of_miss(levels, level), verdicts);
+                                 miss_at(levels, level), verdicts);
                    });
   for (const auto &[of_case, its_strains] : budgeted_cases(strain_rows))
   {
@@ -292,12 +299,12 @@ std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows
     const bool is_sheet = row.what == "sheet";
     if (!is_sheet && row.what != "p2-cell")
       continue;
-    const Outcome answer =
-      !std::isfinite(row.distance) ? Outcome::inconclusive
-      : row.distance <= agreement
-        ? Outcome::pass
-        : outcome_of_miss(levels, {row.cell, row.load, row.strain, row.reference});
-    const std::string why = row.fault.empty() ? "" : "; " + row.fault;
+    const Miss miss = is_sheet ? miss_at(levels, {row.cell, row.load, row.strain, row.reference})
+                               : Miss{Outcome::fail, ""};
+    const Outcome answer  = !std::isfinite(row.distance) ? Outcome::inconclusive
+                            : row.distance <= agreement  ? Outcome::pass
+                                                         : miss.outcome;
+    const std::string why = (row.fault.empty() ? "" : "; " + row.fault) + miss.note;
     verdicts.push_back(
       is_sheet
         ? judged(
