@@ -232,13 +232,13 @@ class ResultsPageTest(unittest.TestCase):
                       " law).", page)
         self.assertIn("- 10 % strain, 0 of 2: none.", page)
 
-    def test_the_table_counts_losses_of_the_paper_that_are_decided(self):
+    def test_the_table_counts_losses_of_the_paper_that_are_decided_and_all(self):
         rows = [published_row(cell, "0.1", affine="3", localized_against_affine=outcome)
                 for cell, outcome in (("a", "FAIL"), ("b", "INCONCLUSIVE"))]
         rows.append(published_row("c", "0.1", affine="3", law_lost_at="0.02"))
         header, _, line = results_page.summary(rows).splitlines()
-        self.assertRegex(header, r"\| paper loses, decided \|$")
-        self.assertRegex(line, r"\| 0 / 0 / 3 \| 1 \|$")
+        self.assertRegex(header, r"\| paper loses, decided/all \|$")
+        self.assertRegex(line, r"\| 0 / 0 / 3 \| 1/3 \|$")
 
     def test_medians_are_of_one_set_and_strain_and_of_rows_in_which_the_law_holds(self):
         rows = [published_row(cell, strain, set=its, gain_of_upsampling=gain, law_lost_at=lost)
@@ -249,7 +249,7 @@ class ResultsPageTest(unittest.TestCase):
                     ("drawn weaves", "d-drawn-1", "0.01", "0.5", ""))]
         page = self.page(*rows)
         for row in ("patches, stripes, holes | 1 % | 1.00 (1.00 to 1.00) | 3.00 (2.00 to 7.00) |",
-                    "patches, stripes, holes | 10 % | – | – | – | – | 0 / 0 / 1 | 0 |",
+                    "patches, stripes, holes | 10 % | – | – | – | – | 0 / 0 / 1 | 0/0 |",
                     "weaves | 1 % | 1.00 (1.00 to 1.00) | 1.50",
                     "weaves drawn by chance | 1 % | 1.00 (1.00 to 1.00) | 0.500"):
             self.assertIn(f"| {row}", page.replace("**", ""))
