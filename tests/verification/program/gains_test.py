@@ -53,10 +53,23 @@ class Gains(InFolder):
                     self.folder / "run", "--resume")
         self.assertEqual(again.returncode, 4, again.stderr)
 
-    def test_of_one_material_nothing_is_claimed_of_up_sampling(self):
+    def one_material(self):
         text = LAYERED.read_text().replace("hard: 1e7", "hard: 1e6")
         (self.folder / "one.prm").write_text(text)
         shutil.copy(COARSE / "layered.msh", self.folder)
+
+    def test_of_one_material_no_sheet_is_said_to_be_closer(self):
+        self.one_material()
+        result = run("converge", self.folder / "one.prm", "--quick", "--studies", "scale",
+                     "--no-report", "--output", self.folder / "run")
+        verdicts = json.loads((self.folder / "run" / "verdicts.json").read_text())["verdicts"]
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertEqual(len(verdicts), 9)
+        for verdict in verdicts:
+            self.assertEqual(verdict["verdict"], "INCONCLUSIVE", verdict)
+
+    def test_of_one_material_nothing_is_claimed_of_up_sampling(self):
+        self.one_material()
         status, claims = self.study(self.folder / "one.prm", "--references", "biot", "--strains",
                                     "0.01,0.1")
         self.assertEqual(status, 4)
