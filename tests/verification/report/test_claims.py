@@ -37,6 +37,8 @@ class ClaimTest(unittest.TestCase):
         self.assertIn("which the anchor leaves out (80 % of it)", row["why"])
         self.assertIn("coarse mesh alone", row["advice"])
         self.assertEqual(self.claim(text, "PASS", "method")["advice"], "")
+        row = self.claim(text, "INCONCLUSIVE", "method", "closer-than.affine")
+        self.assertTrue(row["advice"].startswith("Not decided"), row["advice"])
         # What a method takes away is no reason for what it leaves.
         row = self.claim(text.replace("localized", "full"), "FAIL", "method")
         self.assertIn("most likely because cells are not small", row["why"])

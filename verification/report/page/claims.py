@@ -80,10 +80,12 @@ def cause_of(verdict, budget):
 
 
 def advice_of(verdict):
-    """What a reader can do about a claim that does not hold."""
-    otherwise = OPEN if verdict["verdict"] == "INCONCLUSIVE" else OF_KIND
+    """What a reader can do about a claim that does not hold. What condemns is said of failures."""
     known = schema.claims().get(verdict.get("id"), {})
-    return known.get("advice") or otherwise[verdict["kind"]]
+    advice = known.get("advice")
+    if verdict["verdict"] == "INCONCLUSIVE":
+        return advice or OPEN[verdict["kind"]]
+    return advice or known.get("advice_if_failed") or OF_KIND[verdict["kind"]]
 
 
 def claim_groups(claims, heading_of=KINDS):
