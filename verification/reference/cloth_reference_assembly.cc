@@ -42,14 +42,14 @@ template <typename OfCell>
 double sum_over_cells(const homogenization::Discretization &discretization,
                       const ElasticSolver::Vector &field, const OfCell &of_cell)
 {
-  FEValues<2> fe_values = discretization.fe_values(discretization.nonlinear_quadrature);
+  FEValues<2> fe_values = discretization.gradients_of_nodes(discretization.nonlinear_quadrature);
   const ElasticSolver::Vector everywhere = ghosted(discretization, field);
-  std::vector<double> values(fe_values.dofs_per_cell);
+  std::vector<double> values(discretization.element.n_dofs_per_cell());
   double sum = 0.;
   discretization.for_owned_cells(
     [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      fe_values.reinit(cell);
+      fe_values.reinit(discretization.on_mesh(cell));
       everywhere.extract_subvector_to(dofs, values);
       sum += of_cell(fe_values, cell->material_id(), at_nodes(values));
     });
@@ -69,7 +69,7 @@ Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients_of(const FEValues<
   Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients;
   for (unsigned int i = 0; i < n_shapes; ++i)
     for (unsigned int d = 0; d < 2; ++d)
-      gradients(i, d) = fe_values.shape_grad(3 * i, q)[d];
+      gradients(i, d) = fe_values.shape_grad(i, q)[d];
   return gradients;
 }
 } // namespace
@@ -159,14 +159,14 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
   const Eigen::Matrix<double, n_shapes, n_shapes> unit_mass = reference_mass;
 
   std::vector<double> sums(4, 0.); // energy, its size, force size², round off²
-  FEValues<2> fe_values = discretization.fe_values(discretization.nonlinear_quadrature);
+  FEValues<2> fe_values = discretization.gradients_of_nodes(discretization.nonlinear_quadrature);
   std::vector<double> values(n);
   FullMatrix<double> cell_matrix(n, n);
   dealii::Vector<double> cell_forces(n);
   discretization.for_owned_cells(
     [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      fe_values.reinit(cell);
+      fe_values.reinit(discretization.on_mesh(cell));
       const auto of_field = [&](const Vector &field) -> NodeVectors
       {
         field.extract_subvector_to(dofs, values);
@@ -257,7 +257,7 @@ double ClothReference::Solver::stored_energy() const
         SpaceGradient F = SpaceGradient::Zero();
         for (Eigen::Index i = 0; i < at.rows(); ++i)
         {
-          const Tensor<1, 2> &slope = fe_values.shape_grad(3 * static_cast<unsigned int>(i), q);
+          const Tensor<1, 2> &slope = fe_values.shape_grad(static_cast<unsigned int>(i), q);
           F += at.row(i).transpose() * Eigen::RowVector2d(slope[0], slope[1]);
         }
         energy += fe_values.JxW(q) *

@@ -35,11 +35,11 @@ void add_tangent(const Eigen::Matrix4d &tangent, const Eigen::Matrix<double, 4, 
   const Eigen::Matrix<double, 4, n> force = weighted.lazyProduct(D);
   K += D.transpose().lazyProduct(force);
 }
-/// Of the shape of one degree of freedom.
-Eigen::Vector2d gradient_of(const FEValues<2> &fe_values, const unsigned int dof,
+/// Of the shape of one node.
+Eigen::Vector2d gradient_of(const FEValues<2> &fe_values, const unsigned int node,
                             const unsigned int q)
 {
-  const Tensor<1, 2> &gradient = fe_values.shape_grad(dof, q);
+  const Tensor<1, 2> &gradient = fe_values.shape_grad(node, q);
   return {gradient[0], gradient[1]};
 }
 } // namespace
@@ -72,9 +72,9 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
     double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
     for (int i = 0; i < n_shapes; ++i)
     {
-      const auto k            = static_cast<std::size_t>(i);
-      const Eigen::Vector2d g = gradient_of(fe_values, 2 * static_cast<unsigned int>(i), q);
-      D.template block<2, 1>(0, 2 * i)     = g;
+      const auto k                     = static_cast<std::size_t>(i);
+      const Eigen::Vector2d g          = gradient_of(fe_values, static_cast<unsigned int>(i), q);
+      D.template block<2, 1>(0, 2 * i) = g;
       D.template block<2, 1>(2, 2 * i + 1) = g;
       F.row(0) += values[2 * k] * g.transpose();
       F.row(1) += values[2 * k + 1] * g.transpose();
@@ -126,7 +126,7 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
     solver->matrix = 0.;
 
   Evaluation state;
-  FEValues<2> fe_values = discretization.fe_values(
+  FEValues<2> fe_values = discretization.gradients_of_nodes(
     law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature);
   std::vector<double> values(n);
   FullMatrix<double> element_matrix(n, n);
@@ -134,7 +134,7 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
   discretization.for_owned_cells(
     [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      fe_values.reinit(cell);
+      fe_values.reinit(discretization.on_mesh(cell));
       const LawOfPhase &phase = phases[cell->material_id()];
       ghosted.extract_subvector_to(dofs, values);
       const TriangleSums<n_shapes> sums =
