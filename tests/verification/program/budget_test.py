@@ -73,6 +73,21 @@ class Budget(InFolder):
         self.assertEqual(len(claims), 4)
         self.assertEqual({v["verdict"] for v in claims}, {"PASS"})
 
+    def test_levels_that_are_not_judged_have_part_two_where_its_order_is_read_off_them(self):
+        result = run("strain", LAYERED, "--strains", "0.002,0.005,0.01,0.05,0.1", "--loads",
+                     "periodic-12", "--references", "biot", "--methods", "localized",
+                     "--no-runtime", "--no-report", "--quiet", "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        parts = {}
+        for row in rows_of(self.folder / "budget.csv"):
+            parts.setdefault(float(row["strain"]), set()).add(row["part"])
+        self.assertEqual(sorted(parts), [0.002, 0.005, 0.01, 0.1])
+        self.assertEqual(parts[0.002], {"macro-law", "modes", "total"})
+        self.assertLess(parts[0.002] | {"sum", "unexplained", "rest"}, parts[0.1])
+        claims = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
+        self.assertEqual([v["verdict"] for v in claims if v["id"].startswith("budget-slope")],
+                         ["PASS"])
+
     def test_methods_with_coarse_cloths_of_their_own_have_run_times(self):
         methods = ("localized+edges", "localized+cubic+modes", "localized+p2", "full")
         result = run("strain", LAYERED, "--cells", "4", "--strains", "0.01",

@@ -48,6 +48,29 @@ std::vector<double> judged_strains(const std::vector<double> &strains)
   return judged;
 }
 
+bool is_small(const double strain)
+{
+  return strain <= 0.0201;
+}
+
+bool decides_order(const double strain)
+{
+  return strain >= 0.99e-4 && is_small(strain);
+}
+
+bool decide_order(const std::vector<double> &strains)
+{
+  return std::count_if(strains.begin(), strains.end(), decides_order) >= 3;
+}
+
+BudgetExtent budget_extent(const double strain, const std::vector<double> &strains)
+{
+  const std::vector<double> judged = judged_strains(strains);
+  if (judged.empty() || std::find(judged.begin(), judged.end(), strain) != judged.end())
+    return BudgetExtent::whole;
+  return is_small(strain) && decide_order(strains) ? BudgetExtent::order : BudgetExtent::none;
+}
+
 PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
                    const std::vector<int> &regions, const int region)
 {
@@ -80,8 +103,11 @@ std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &bu
   for (const std::string &name : budget_parts())
     if (const auto part = budget.parts.find(name); part != budget.parts.end())
       fields.emplace_back(name, &part->second);
-  fields.emplace_back("sum", &sum);
-  fields.emplace_back("unexplained", &unexplained);
+  if (budget.is_whole())
+  {
+    fields.emplace_back("sum", &sum);
+    fields.emplace_back("unexplained", &unexplained);
+  }
   fields.emplace_back("total", &budget.total); // last: where it is there, so are all others
   std::vector<BudgetRow> rows;
   BudgetRow bar = level;

@@ -33,6 +33,22 @@ double strain_nearest_to(double wanted, const std::vector<double> &strains);
 /// factor of 1.5.
 std::vector<double> judged_strains(const std::vector<double> &strains);
 
+/// Levels up to 2 %: beyond, the third order of part 2 shows.
+bool is_small(double strain);
+
+/// Levels off which its order is read: small ones from 1e-4 on. Three decide it.
+bool decides_order(double strain);
+bool decide_order(const std::vector<double> &strains);
+
+/// What of a budget is measured at a level of a study.
+enum class BudgetExtent
+{
+  none,
+  order, ///< the error and part 2: of small levels, where they decide an order
+  whole  ///< of levels that are judged; of all, where none is
+};
+BudgetExtent budget_extent(double strain, const std::vector<double> &strains);
+
 /// Norms of one part in one region.
 struct PartNorms
 {
@@ -43,9 +59,9 @@ struct PartNorms
 PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
                    const std::vector<int> &regions, int region);
 
-/// Rows of budget.csv: every part that was measured, then `sum`, `unexplained` = total − sum and
-/// `total`, in every region that has vertices, and `unexplained-bar`, how large the mean of
-/// `unexplained` may be.
+/// Rows of budget.csv: every part that was measured, then of a whole budget `sum` and `unexplained`
+/// = total − sum, then `total`, in every region that has vertices, and `unexplained-bar`, how large
+/// the mean of `unexplained` may be.
 /// @param side sqrt(|Y|) [m]
 /// @param level names the rows: cell, load, strain, reference
 std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &budget,

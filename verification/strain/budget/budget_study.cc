@@ -22,7 +22,7 @@ BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
     : law_of_budget(law_of(main_reference(references)))
     , table(table)
     , checks(checks)
-    , judged(judged_strains(strains))
+    , strains(strains)
     , communicator(communicator)
 {
 }
@@ -30,6 +30,7 @@ BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
 bool BudgetStudy::row_is_missing(const StrainLevel &level) const
 {
   return table != nullptr && level.law == law_of_budget &&
+         budget_extent(level.strain, strains) != BudgetExtent::none &&
          !table->contains(
            {level.cell, level.load, level.strain, name_of(level.law), "total", "all"});
 }
@@ -95,10 +96,15 @@ std::string BudgetStudy::measure(const Law law, const double strain,
                                  const meshes::Points &positions, FineReference &reference,
                                  const UpsampledLevel &solved)
 {
-  const ReferenceStep tight = reference.tighten(1e-11);
-  const bool is_judged      = std::find(judged.begin(), judged.end(), strain) != judged.end();
-  const ReferenceStep of_p2 = is_judged ? p2->advance(strain) : ReferenceStep();
   std::string fault;
+  SolvedLevel level = {strain,  solved.coarse, solved.upsampled, positions,
+                       nullptr, nullptr,       nullptr};
+  if (budget_extent(strain, strains) == BudgetExtent::order)
+  {
+    on_root(communicator, [&]() { fault = measure_on_root(law, level); });
+    return fault;
+  }
+  const ReferenceStep tight = reference.tighten(1e-11), of_p2 = p2->advance(strain);
   on_root(communicator,
           [&]()
           {
@@ -107,13 +113,12 @@ std::string BudgetStudy::measure(const Law law, const double strain,
               fault = "the reference does not converge to 1e-11; " + tight.why;
             else
             {
-              std::optional<meshes::Points> second_sheet;
-              if (is_judged)
-                second_sheet = solve_by_second_code(law, strain, tight.positions, fault);
-              const std::string of_parts =
-                measure_on_root(law, {strain, solved.coarse, solved.upsampled, positions,
-                                      tight.positions, of_p2.reached ? &of_p2.positions : nullptr,
-                                      second_sheet ? &*second_sheet : nullptr});
+              const std::optional<meshes::Points> second_sheet =
+                solve_by_second_code(law, strain, tight.positions, fault);
+              level.tight_reference      = &tight.positions;
+              level.p2_reference         = of_p2.reached ? &of_p2.positions : nullptr;
+              level.second               = second_sheet ? &*second_sheet : nullptr;
+              const std::string of_parts = measure_on_root(law, level);
               fault += (fault.empty() || of_parts.empty() ? "" : "; ") + of_parts;
             }
             if (fault.empty() && !why_no_edges.empty() && !is_periodic)
@@ -122,7 +127,7 @@ std::string BudgetStudy::measure(const Law law, const double strain,
                 "the terms of edges are not known, and stand in the part `rest`; " + why_no_edges;
               why_no_edges.clear(); // once per cell
             }
-            if (fault.empty() && is_judged && !of_p2.reached)
+            if (fault.empty() && !of_p2.reached)
               fault = "the part `reference` is not known: P2 is not reached; " + of_p2.why;
             if (fault.empty() && !note_of_round_off(tight).empty())
               fault =

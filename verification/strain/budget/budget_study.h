@@ -34,8 +34,8 @@ public:
   BudgetStudy(const std::vector<std::string> &references, const std::vector<double> &strains,
               Table<BudgetRow> *table, Table<CrossCheckRow> *checks, MPI_Comm communicator);
 
-  /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees
-  /// it.
+  /// Whether a budget of a level, whole or part 2 alone, is asked for and not yet in the table, as
+  /// the first rank sees it.
   bool row_is_missing(const StrainLevel &level) const;
 
   /// Solves the sheet in linear theory by the second code, lays out the P2 reference, and at the
@@ -62,7 +62,7 @@ private:
 
   Table<BudgetRow> *const table;
   Table<CrossCheckRow> *const checks;
-  const std::vector<double> judged; ///< strains
+  const std::vector<double> strains; ///< of the study
   const MPI_Comm communicator;
   const homogenization::UnitCell *cell = nullptr;
   BudgetCells cells;

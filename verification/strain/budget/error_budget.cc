@@ -134,17 +134,19 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   last                         = sheets(law).resolved.solve(strain, last ? &*last : nullptr);
   const shell::Positions<2> &u = last->positions;
   const LocalState exact       = resolved.at_fine_vertices(law, u);
-  const LocalState averaged    = resolved.at_fine_vertices(law, u, coarse);
   const Points with_exact      = localized(exact, cells.given, sheet);
-  const Points with_averaged   = localized(averaged, cells.given, sheet);
 
-  measure_edges(*last, with_exact, law, budget);
-  budget.parts["rest"]      = strain * rest;
   budget.parts["macro-law"] = budget.parts["modes"] = zero;
   if (law != Law::linear)
     measure_nonlinearity(law, u, with_exact, budget);
+  if (level.tight_reference == nullptr)
+    return budget;
+  measure_edges(*last, with_exact, law, budget);
+  budget.parts["rest"] = strain * rest;
   if (law == Law::linear || level.second != nullptr)
     budget.bar = bar_of_sum(law, level, exact.positions, with_exact, budget);
+  const Points with_averaged =
+    localized(resolved.at_fine_vertices(law, u, coarse), cells.given, sheet);
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
   budget.parts["blending"]   = with_averaged - with_exact;
@@ -160,7 +162,7 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   options.relative_tolerance = 1e-13;
   budget.parts["solver"] =
     (level.upsampled - tight.upsample(tight.solve(strain, &u_coarse, options))) -
-    (level.reference - level.tight_reference);
+    (level.reference - *level.tight_reference);
 
   localization::Upsampler<2, float>::Fine in_float;
   localization::Upsampler<2, float>(cells.given, best.mesh(), sheet, best.parts.options)

@@ -33,7 +33,7 @@
 // Their sum stands against M − T; what it leaves is `unexplained`. Beside the sum, because method
 // and reference share the mesh of the cell and its discretization hits both:
 //  4 cell          M − M with chi* and C^H*
-//    reference     T* − T, at that strain and law; at the levels that are judged
+//    reference     T* − T, at that strain and law
 //  8 precision     [M in float] − M
 //    resolution    [u + R w(E)] − the same with u on a mesh half as fine: three times what u lacks
 //                  if u converges with order two, and as much as it lacks if corners leave it order
@@ -94,6 +94,12 @@ struct ErrorBudget
   meshes::Points total;               ///< M − T as measured
   double misfit_of_localization = 0.; ///< NonlinearLocalization::misfit()
 
+  /// Whether all parts were measured, and not part 2 alone.
+  bool is_whole() const
+  {
+    return parts.count("rest") != 0;
+  }
+
   /// Of the parts that stand in the sum.
   meshes::Points sum() const;
 
@@ -106,12 +112,13 @@ struct ErrorBudget
 struct SolvedLevel
 {
   double strain = 0.;
-  const shell::Positions<2> &coarse;     ///< u_H
-  const meshes::Points &upsampled;       ///< M, double precision
-  const meshes::Points &reference;       ///< T
-  const meshes::Points &tight_reference; ///< T with a tight tolerance
-  const meshes::Points *p2_reference;    ///< T*, or null where it was not solved
-  const meshes::Points *second;          ///< T' at that strain and law, or null
+  const shell::Positions<2> &coarse; ///< u_H
+  const meshes::Points &upsampled;   ///< M, double precision
+  const meshes::Points &reference;   ///< T
+  /// T with a tight tolerance; null: the error and part 2 alone are asked for.
+  const meshes::Points *tight_reference;
+  const meshes::Points *p2_reference; ///< T*, or null where it was not solved
+  const meshes::Points *second;       ///< T' at that strain and law, or null
 };
 
 /// The budget of one sheet under one load. Linear theory is solved once, what depends on strain per

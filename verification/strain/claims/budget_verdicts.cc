@@ -157,12 +157,6 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
     judged("budget.solvers", words, outcome_of(solver, solver <= 0.01, Outcome::fail), solver));
 }
 
-/// Levels up to 2 %: beyond, the third order shows.
-bool is_small(const double strain)
-{
-  return strain <= 0.0201;
-}
-
 /// A part of second order in strain, and what it is called in a claim.
 struct SecondOrderPart
 {
@@ -173,11 +167,10 @@ void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
                  const BudgetRow &of_case, const std::vector<double> &asked,
                  std::vector<Verdict> &verdicts)
 {
-  const auto in_window = [](const double strain) { return strain >= 0.99e-4 && is_small(strain); };
+  if (!decide_order(asked))
+    return; // the study was not asked for what would decide it
   std::vector<double> strains = asked, x, y, small_x, small_y;
   std::sort(strains.begin(), strains.end());
-  if (std::count_if(strains.begin(), strains.end(), in_window) < 3)
-    return; // the study was not asked for what would decide it
   std::size_t n_round_off = 0;
   for (const double strain : strains)
   {
@@ -191,7 +184,7 @@ void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
       small_x.push_back(strain);
       small_y.push_back(mean);
     }
-    if (!in_window(strain))
+    if (!decides_order(strain))
       continue;
     n_round_off += is_zero(mean, strain);
     x.push_back(strain);

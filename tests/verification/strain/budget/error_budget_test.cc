@@ -75,7 +75,7 @@ ErrorBudget measured(const UnitCell &cell, const BudgetCells &cells, const Load 
       ? second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, strain)
       : second_nonlinear_sheet(Law::biot, cells.given, cells.stiffness_of_phase, sheet, load,
                                strain);
-  return budget.measure(law, {strain, coarse.positions, upsampled, fine, tight, nullptr, &second});
+  return budget.measure(law, {strain, coarse.positions, upsampled, fine, &tight, nullptr, &second});
 }
 
 double mean(const meshes::Points &field)

@@ -102,6 +102,29 @@ const Verdict &verdict_with(const std::vector<Verdict> &verdicts, const std::str
 const std::vector<double> strains = {0.001, 0.005, 0.01, 0.1};
 } // namespace
 
+TEST(exact_budget_rows, budgets_are_whole_where_they_are_judged_and_read_an_order_off_small_levels)
+{
+  const auto extents = [](const std::vector<double> &strains)
+  {
+    std::string all;
+    for (const double strain : strains)
+      all += "-ow"[static_cast<int>(budget_extent(strain, strains))];
+    return all;
+  };
+  EXPECT_EQ(extents({0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2}), "ooowo-w--");
+  EXPECT_EQ(extents({0.001, 0.01, 0.1}), "-ww"); // too few for an order
+  EXPECT_EQ(extents({0.03, 0.05}), "ww");        // none is judged
+}
+
+TEST(exact_budget_rows, a_part_of_a_budget_has_no_sum)
+{
+  ErrorBudget budget = known_budget(0.01);
+  budget.parts.erase("rest");
+  for (const BudgetRow &row :
+       budget_rows({"cell", "strip-2", 0.01, "biot"}, budget, all_interior, 0.01))
+    EXPECT_TRUE(row.part != "sum" && row.part != "unexplained");
+}
+
 TEST(exact_budget, parts_that_make_up_the_total_leave_nothing)
 {
   const auto verdicts = judged(strains, ladder(strains));
