@@ -10,6 +10,7 @@ import unittest
 from matplotlib import pyplot
 
 import report_path  # noqa: F401
+import browser
 import page_checks
 from figures import budget, plot_data
 from made_up_run import list_again, write_table
@@ -354,6 +355,28 @@ class BudgetReport(PageTest):
         # Of what the run did not make.
         for text in ("Each part is a field at the fine vertices", "read off the strain ladder"):
             self.assertNotIn(text, self.page())
+
+    @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
+    def test_on_paper_no_table_is_cut(self):
+        note = "3 of 5 runs: together they took more than 30 s; its error is its own error bar"
+        self.edit_table("runtime.csv", lambda rows: [{**row, "note": note} for row in rows])
+        names = ("affine+p2", "localized+p2", "localized+edges", "localized+cubic+modes", "full-micro",
+                 "full")
+        self.edit_table("strain.csv", lambda rows: rows + [
+            {**row, "method": name} for row in rows if row["method"] == "localized"
+            for name in names])
+        self.assertEqual(self.run_report()[0], 0)
+        script = """when((page) => page.querySelector("main table"), (page) => {
+          for (const { media } of page.styleSheets[0].cssRules)
+            if (media && media.mediaText === "print") media.mediaText = "all";
+          page.querySelectorAll("details").forEach((fold) => { fold.open = true; });
+          const right = (one) => one.getBoundingClientRect().right;
+          const tables = [...page.querySelectorAll("table")], edge = right(page.querySelector("main"));
+          send([tables.length, tables.filter((one) => right(one) > edge + 1)
+            .map((one) => one.rows[0].innerText)]); });"""
+        (n_tables, cut), _ = browser.ask(self.output, "report.html", script, width=733)  # A4
+        self.assertGreater(n_tables, 10)
+        self.assertEqual(cut, [])
 
     def test_a_share_may_be_negative_an_error_not(self):
         self.edit_table("budget.csv", lambda rows: rows[0].update(mean_m="-0.0001"))
