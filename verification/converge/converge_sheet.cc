@@ -190,13 +190,15 @@ ConvergenceResult refine_coarse_mesh(const UnitCell &cell,
   return result;
 }
 
-/// A coarse sheet of 8 x 8 cells lies flat, is held at its edge f2 = 1 and swings down for 40 ms.
+/// A coarse sheet of 8 x 8 cells lies flat, is held at its edge f2 = 1 and swings down for 40 ms if
+/// it is 8 cm long, and others for as long in their own time, sqrt(length / g).
 ConvergenceResult refine_time_step(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                                    const shell::Integrator integrator,
                                    const ConvergenceSizes &sizes)
 {
   constexpr int n                  = 8;
-  constexpr double duration        = 0.04; // [s]
+  const double side                = n * std::sqrt(cell.lattice.area());
+  const double duration            = 0.04 * std::sqrt(side / 0.08); // [s]
   Eigen::Matrix<double, 3, 2> flat = Eigen::Matrix<double, 3, 2>::Identity();
   meshes::TriangleMesh rest =
     meshes::coarse_sheet(Eigen::RowVector2d::Zero(), cell.lattice.vectors, n, n);
@@ -205,7 +207,6 @@ ConvergenceResult refine_time_step(const UnitCell &cell, const meshes::Homogeniz
   for (int i = 0; i <= n; ++i)
     held.push_back(n * (n + 1) + i);
   const Eigen::VectorXd masses = shell::lumped_masses(mesh, {homogenized.areal_density});
-  const double side            = n * std::sqrt(cell.lattice.area());
   const auto end_of            = [&](const int n_steps)
   {
     shell::ClothOptions options;

@@ -173,6 +173,28 @@ class Converge(InFolder):
         self.assertEqual({row["quantity"].split(":")[0] for row in levels},
                          {"affine", "localized", "affine+edges", "full"})
 
+    def claims_of(self, cell, study):
+        """Of one study of a cell, its claims, and the rows of its levels."""
+        result = run("converge", cell, "--quick", "--studies", study, "--no-report", "--quiet",
+                     "--output", self.folder / "out", "--overwrite")
+        claims = json.loads((self.folder / "out" / "verdicts.json").read_text())["verdicts"]
+        self.assertEqual(result.returncode, status_of(claims), result.stderr)
+        return claims, [row for row in rows_of(self.folder / "out" / "converge.csv")
+                        if row["kind"] == "level"]
+
+    def test_a_cell_of_another_size_moves_for_as_long_in_its_own_time(self):
+        steps = []
+        for unit in ("0.01", "2e-4"):
+            cell = self.cell_with("Length unit     = 0.01", f"Length unit     = {unit}")
+            claims, levels = self.claims_of(cell, "time")
+            # Linearly implicit steps show their order later where a sheet is stiff for its weight.
+            self.assertIn(claims[0]["verdict"], ("PASS", "INCONCLUSIVE"), claims)
+            self.assertEqual([claim["verdict"] for claim in claims[1:]], ["PASS"] * 2, claims)
+            steps.append([float(row["h"]) for row in levels if "Euler" in row["case"]])
+        self.assertEqual(steps[0], [0.04 / n for n in (50, 100, 200, 400)] * 2)
+        for large, small in zip(*steps):
+            self.assertAlmostEqual(small / large, 0.02 ** 0.5, delta=1e-12)
+
     def test_an_unknown_study_is_refused_with_the_names_there_are(self):
         result = run("converge", LAYERED, "--studies", "mesh,knit", "--output",
                      self.folder)
