@@ -195,6 +195,19 @@ class Converge(InFolder):
         for large, small in zip(*steps):
             self.assertAlmostEqual(small / large, 0.02 ** 0.5, delta=1e-12)
 
+    def test_an_error_at_edges_that_falls_faster_than_theory_is_open_a_slower_one_fails(self):
+        cell = broken_cells_test.Cell()
+        cell.groups = [1 + cell.square_of(t)[0] // 4 for t in range(len(cell.triangles))]
+        cell.keys["Young's modulus"] = "soft: 1e6, hard: 1e9"
+        claims, _ = self.claims_of(cell.write(self.folder), "edges")
+        (closed,) = [one for one in claims if one["id"] == "edge-order.no-corners"]
+        self.assertGreater(closed["value"], 1.1)
+        self.assertEqual(closed["verdict"], "INCONCLUSIVE", closed)
+        self.assertIn("several powers show together at 1.1 to 2.1", closed["limit"])
+        (strip,) = [one for one in claims if "strip-1" in one["claim"]]
+        self.assertLess(strip["value"], 0.7)
+        self.assertEqual(strip["verdict"], "FAIL", strip)
+
     def test_an_unknown_study_is_refused_with_the_names_there_are(self):
         result = run("converge", LAYERED, "--studies", "mesh,knit", "--output",
                      self.folder)
