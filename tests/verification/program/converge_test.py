@@ -208,6 +208,20 @@ class Converge(InFolder):
         self.assertLess(strip["value"], 0.7)
         self.assertEqual(strip["verdict"], "FAIL", strip)
 
+    def test_where_phases_differ_in_shear_alone_orders_of_pulls_are_open_and_say_why(self):
+        cell = broken_cells_test.Cell()
+        cell.groups = [2 if max(cell.square_of(t)) < 4 else 1 for t in range(len(cell.triangles))]
+        del cell.keys["Young's modulus"], cell.keys["Poisson's ratio"]
+        cell.keys["Orthotropic"] = "soft: 1e6 1e6 0.3 3e5 0, hard: 1e6 1e6 0.3 6e5 0"
+        claims, _ = self.claims_of(cell.write(self.folder), "strain")
+        pulled = [claim for claim in claims if claim["id"] == "method-order.zero"]
+        self.assertEqual(len(pulled), 6, claims)
+        for claim in pulled:
+            self.assertEqual(claim["verdict"], "INCONCLUSIVE", claim)
+            self.assertIn("nothing fluctuates", claim["limit"])
+        sheared = [claim for claim in claims if claim["id"] == "method-order"]
+        self.assertEqual([claim["verdict"] for claim in sheared], ["PASS"] * 6, sheared)
+
     def test_an_unknown_study_is_refused_with_the_names_there_are(self):
         result = run("converge", LAYERED, "--studies", "mesh,knit", "--output",
                      self.folder)
