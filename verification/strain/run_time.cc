@@ -210,12 +210,21 @@ private:
   void own_cloth(const Method &asked)
   {
     CellModel of          = {homogenized, options.edges};
-    const Method method   = CoarseModel::used(asked, options.law, load, sheet, of);
-    const std::string way = method.name + "-" + std::to_string(sheet.n1);
-    const bool is_plain =
-      Method("localized").has_terms_of(method) || Method("affine").has_terms_of(method);
-    if (has(way) || is_plain || !under(asked, options.law, load).has_terms_of(method) ||
-        (method.has_fitted_modes(options.law) && options.fitted == nullptr))
+    const Method own      = under(asked, options.law, load),
+                 method   = CoarseModel::used(asked, options.law, load, sheet, of);
+    const std::string way = asked.name + "-" + std::to_string(sheet.n1);
+    for (const char *plain : {"affine", "localized"})
+      if (own.has_terms_of(Method(plain)))
+      {
+        if (asked.name != plain)
+          leave_out(way, std::string("under this law it is ") + plain);
+        return;
+      }
+    if (const std::string less = own.beyond(method); !less.empty())
+      return leave_out(way, "without " + less + " here it is another method; notes say why");
+    if (method.has_fitted_modes(options.law) && options.fitted == nullptr)
+      return leave_out(way, "no modes were fitted; a note says why");
+    if (has(way))
       return;
     if (method.has_fitted_modes(options.law))
       of.fitted = options.fitted;

@@ -9,8 +9,9 @@
 //   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or
 //                          localized
 //   METHOD-N               the others of --methods, like full-20, on the vertices of one quad per
-//                          cell; terms of edges are part of the equilibrium. Not those whose
-//                          terms the cell or the sheet does not have whole
+//                          cell; terms of edges are part of the equilibrium. Those whose
+//                          terms the cell or the sheet does not have whole are left out, with a
+//                          note
 //   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place
 //                          of C^H; Reuss not with holes
 //   nodal-warping          one quad per cell, localized, with the paper's warped stiffness

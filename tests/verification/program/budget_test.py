@@ -139,6 +139,20 @@ class Budget(InFolder):
         self.assertEqual(ways["reuss"]["error_mean_m"], "")
         self.assertIn("holes", ways["reuss"]["note"])
 
+    def test_a_method_that_lacks_terms_here_has_a_row_of_run_times_that_says_so(self):
+        methods = ("localized+p2", "localized+cubic", "full", "localized+edges")
+        result = run("strain", WEAVE, "--cells", "3", "--strains", "0.01",
+                     "--loads", "shear-frame", "--methods",
+                     ",".join(methods), "--no-budget", "--no-report", "--quiet",
+                     "--output", self.folder)
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}
+        for method, why in zip(methods, ("without p2", "it is localized", "without p2", "")):
+            row = ways[f"{method}-3"]
+            self.assertIn(why, row["note"])
+            self.assertEqual((row["seconds"] == "", row["note"].startswith("left out: ")),
+                             (why != "", why != ""), row)
+
     def test_a_budget_cut_at_any_row_is_completed(self):
         study = [*STUDY, "--no-runtime", "--quiet", "--output", self.folder]
         self.assertEqual(run(*study).returncode, 0)
