@@ -5,6 +5,7 @@
 #include "homogenization/cell/parameter_text.h"
 #include "verification/command/study_arguments.h"
 #include "verification/method/method.h"
+#include "verification/record/fields.h"
 #include "verification/record/number_text.h"
 
 #include <CLI/Config.hpp>
@@ -66,6 +67,13 @@ void check_strain_arguments(StrainStudyOptions &study, const std::string &superc
                  "; expected fractions between 0 and 1 with a decimal point, 0.1 or 10% for 10 %");
   std::sort(study.strains.begin(), study.strains.end());
   study.strains.erase(std::unique(study.strains.begin(), study.strains.end()), study.strains.end());
+  for (std::size_t k = 1; study.keep && k < study.strains.size(); ++k)
+    if (const std::string text = short_text(study.strains[k]);
+        text == short_text(study.strains[k - 1]))
+      faults.add("--strains: found " + to_field(study.strains[k - 1]) + " and " +
+                 to_field(study.strains[k]) + ", which are both " + text +
+                 " in the names of files that --keep leaves; expected strains that differ in six "
+                 "digits");
   for (const auto &[option, is_empty] :
        {std::pair("--strains", study.strains.empty()), std::pair("--loads", study.loads.empty()),
         std::pair("--methods", study.methods.empty())})

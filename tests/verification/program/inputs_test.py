@@ -278,6 +278,14 @@ class Options(InFolder):
             self.assertEqual(json.loads((self.folder / "out/study.json").read_text())["loads"],
                              ["strip-1", "strip-2"])
 
+    def test_strains_that_files_of_positions_would_have_one_name_for_are_refused(self):
+        strains = ("strain", LAYERED, "--strains", "0.01,0.01000001,0.1", "--loads", "pull")
+        result = run(*strains, "--keep")
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertIn("--strains: found 0.01 and 0.01000001, which are both 0.01 in the names of "
+                      "files that --keep leaves", result.stderr)
+        self.assertNotIn("--keep", run(*strains).stderr)
+
     def test_percentages_are_strains_and_a_large_number_asks_whether_percent_was_meant(self):
         result = run("strain", LAYERED, "--loads", "periodic-11", "--strains",
                      "1%,60%", *QUICK, "--output", self.folder)
