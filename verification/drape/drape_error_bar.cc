@@ -20,6 +20,13 @@ double mean_length(const SpacePoints &field)
   return field.rowwise().norm().mean();
 }
 
+SpacePoints upsampled(const Upsampler3d &upsampler, const shell::Vectors &coarse)
+{
+  Upsampler3d::Fine fine;
+  upsampler.upsample(coarse, fine);
+  return fine;
+}
+
 /// A coarse cloth and resolved ones that go side by side with one time step.
 class Runs
 {
@@ -108,22 +115,13 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
 {
   const Scene scene = scaled(draped.scene, n_cells);
   const DrapedCell sheet(scene, draped.cell, draped.homogenized, draped.law);
-  const Upsampler3d affine       = sheet.upsampler<double>(Method("affine")),
-                    method       = sheet.upsampler<double>(Method("localized")),
-                    whole_method = draped.upsampler<double>(Method("localized"));
-  const auto upsampled           = [](const Upsampler3d &upsampler, const Runs &runs)
-  {
-    Upsampler3d::Fine fine;
-    upsampler.upsample(runs.coarse.cloth().positions(), fine);
-    return SpacePoints(fine);
-  };
+  const Upsampler3d affine = sheet.upsampler<double>(Method("affine")),
+                    method = sheet.upsampler<double>(Method("localized"));
 
   Runs runs(scene, sheet, schedule.step, 1), halved(scene, sheet, 0.5 * schedule.step, 2);
   for (const Discretization &discretization : {Discretization{1, 0}, {2, 0}, {2, 1}})
     runs.fine.push_back(dealii_run(sheet, law, discretization, communicator));
   halved.fine.push_back(dealii_run(sheet, law, {1, 0}, communicator));
-  Runs whole(draped.scene, draped, schedule.step, 1),
-    whole_halved(draped.scene, draped, 0.5 * schedule.step, 2);
 
   DrapeErrorBar bar;
   bar.order = order_of_p2(draped.cell, order_of_p2_sheet);
@@ -136,17 +134,32 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
                       &refined = runs.fine[2]->positions();
     bar.meshes.push_back(
       {mean_length(p1 - p2), mean_length(p1 - refined), mean_length(p2 - refined), true});
+    const shell::Vectors &coarse = runs.coarse.cloth().positions();
     const SpacePoints change =
-      (upsampled(method, runs) - p1) - (upsampled(method, halved) - halved.fine[0]->positions());
+      (upsampled(method, coarse) - p1) -
+      (upsampled(method, halved.coarse.cloth().positions()) - halved.fine[0]->positions());
     bar.halved_step.push_back(schedule.is_static ? 0. : mean_length(change));
-    bar.fluctuation.push_back(mean_length(refined - upsampled(affine, runs)));
-    if (schedule.is_static)
-      bar.coarse_step.push_back(0.);
-    else if (static_cast<int>(bar.coarse_step.size()) == frame && whole.advance(schedule, frame) &&
-             whole_halved.advance(schedule, frame))
-      bar.coarse_step.push_back(
-        mean_length(upsampled(whole_method, whole) - upsampled(whole_method, whole_halved)));
+    bar.fluctuation.push_back(mean_length(refined - upsampled(affine, coarse)));
   }
   return bar;
+}
+
+std::vector<double> changes_by_halved_step(const DrapedCell &draped,
+                                           const std::vector<shell::Vectors> &frames,
+                                           const DrapeSchedule &schedule)
+{
+  if (schedule.is_static)
+    return std::vector<double>(frames.size(), 0.);
+  const Upsampler3d method = draped.upsampler<double>(Method("localized"));
+  Runs halved(draped.scene, draped, 0.5 * schedule.step, 2);
+  std::vector<double> changes;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame)
+  {
+    if (!halved.advance(schedule, static_cast<int>(frame)))
+      break;
+    changes.push_back(mean_length(upsampled(method, frames[frame]) -
+                                  upsampled(method, halved.coarse.cloth().positions())));
+  }
+  return changes;
 }
 } // namespace homespun::verification

@@ -24,7 +24,7 @@ struct DrapeErrorBar
   std::vector<DiscretizationDistance> meshes; ///< of the reference [m]
   std::vector<double> halved_step; ///< mean |e(h) − e(h/2)|, e of drape_error_bar() [m]
   std::vector<double> fluctuation; ///< mean |refined P2 − coarse motion| [m]
-  std::vector<double> coarse_step; ///< mean |u(h) − u(h/2)|, u of drape_error_bar() [m]
+  std::vector<double> coarse_step; ///< changes_by_halved_step(), where frames are kept [m]
 
   /// The bar by mesh, DiscretizationDistance::uncertainty(), or by time step on another sheet [m];
   /// not a number where it is not known.
@@ -43,7 +43,8 @@ struct DrapeErrorBar
 /// step h because the reference's implicit Euler is, its distance from that of h -> 0 is
 /// 2 |e(h) − e(h/2)|, times 1.25 as in the grid convergence index; means over the fine vertices.
 /// The step changes the reference itself by |e(h) − e(h/2)| + |u(h) − u(h/2)| at most, where u, the
-/// up-sampled whole coarse cloth, is run with both steps, too: a small sheet moves in another time.
+/// up-sampled whole coarse cloth, is that of changes_by_halved_step(): a small sheet moves in
+/// another time.
 /// Ends at the first frame that one of them does not reach.
 /// @param law of the reference
 /// @param n_cells of the small sheet, per side
@@ -51,4 +52,11 @@ struct DrapeErrorBar
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, Law law, int n_cells,
                               const DrapeSchedule &schedule, MPI_Comm communicator,
                               const std::function<void(int frame)> &tell);
+
+/// Mean |u(h) − u(h/2)| of each frame, u the up-sampled coarse cloth; zero of equilibria [m]. Ends
+/// at the first frame that the cloth does not reach with half of the time step.
+/// @param frames of the coarse cloth that is the method, run with the step of the schedule [m]
+std::vector<double> changes_by_halved_step(const DrapedCell &draped,
+                                           const std::vector<shell::Vectors> &frames,
+                                           const DrapeSchedule &schedule);
 } // namespace homespun::verification

@@ -118,6 +118,13 @@ private:
       run.schedule, run.communicator,
       [&](const int frame)
       { run.progress.milestone(title + ": error bar, frame " + std::to_string(frame)); });
+    on_root(run.communicator,
+            [&]()
+            {
+              for (const CoarseRun &cloth : coarse.all)
+                if (run.options.keep && cloth.is_main)
+                  bar.coarse_step = changes_by_halved_step(draped, cloth.frames, run.schedule);
+            });
   }
 
   /// To the next frame. @return the reason where it was not reached
