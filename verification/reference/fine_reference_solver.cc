@@ -78,6 +78,7 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
   {
     solver.reset(); // before its constraints change
     linear_rate.reset();
+    seconds_of_linear_solve = 0.;
     load = std::make_unique<Load>(new_load);
     constrain(*load);
     solver = std::make_unique<homogenization::ElasticSolver>(discretization, constraints);
@@ -93,7 +94,6 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
   levels.clear();
   free_strains.setZero();
   side_slope.setZero();
-  seconds_of_linear_solve = 0.;
 }
 
 /// The affine displacement that agrees with the prescribed one; of periodic loads no fluctuation.

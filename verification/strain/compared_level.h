@@ -51,10 +51,9 @@ struct MethodsOnSheet : MovedMethods
 struct LoadedSheet
 {
   const homogenization::UnitCell &cell;
-  const meshes::Sheet &sheet;
   const Load &load;
   const ReferenceUncertainty &uncertainty;
-  FineReference &reference;
+  SheetReferences &references;
   MethodsOnSheet &methods;
   bool has_budget; ///< that can be measured
 };

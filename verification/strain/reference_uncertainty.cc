@@ -73,23 +73,21 @@ ReferenceBar ReferenceBar::operator*(const double factor) const
 std::vector<ReferenceUncertainty::Distances>
 ReferenceUncertainty::measure(const Measurement &what) const
 {
-  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, what.n_cells, what.n_cells);
-  std::vector<ReferenceOptions> ladder = {{1, 0}, {2, 0}};
+  std::vector<FineReference *> ladder = {&what.of.by(1), &what.of.by(2)};
   if (what.ladder == Ladder::with_refined_p2)
-    ladder.push_back({2, 1});
+    ladder.push_back(&what.of.by(2, 1));
   std::vector<std::vector<meshes::Points>> positions(what.strains.size());
   std::vector<std::vector<double>> forces(what.strains.size());
-  for (const ReferenceOptions &discretization : ladder)
+  for (FineReference *const reference : ladder)
   {
-    FineReference reference(sheet, cell.stiffness_of_phase(), discretization, communicator);
-    reference.start(load, what.law);
+    reference->start(load, what.law);
     for (std::size_t k = 0; k < what.strains.size(); ++k)
     {
-      const ReferenceStep step = reference.advance(what.strains[k]);
+      const ReferenceStep step = reference->advance(what.strains[k]);
       if (!step.reached)
         break;
       positions[k].push_back(step.positions);
-      forces[k].push_back(force_per_width(load, sheet.sides(), step.forces));
+      forces[k].push_back(force_per_width(load, what.of.sheet.sides(), step.forces));
     }
   }
   std::vector<Distances> distances(what.strains.size());
@@ -102,12 +100,12 @@ ReferenceUncertainty::measure(const Measurement &what) const
     distances[k].force = distances_of(forces[k], [&](const double a, const double b)
                                       { return (a - b) / std::abs(forces[k][0]); });
   }
-  add_errors(what, sheet, positions, distances);
+  add_errors(what, positions, distances);
   return distances;
 }
 
 /// Method and reference of the same discretization, and how far their differences are apart.
-void ReferenceUncertainty::add_errors(const Measurement &what, const meshes::Sheet &sheet,
+void ReferenceUncertainty::add_errors(const Measurement &what,
                                       const std::vector<std::vector<meshes::Points>> &references,
                                       std::vector<Distances> &distances) const
 {
@@ -119,7 +117,7 @@ void ReferenceUncertainty::add_errors(const Measurement &what, const meshes::She
           {
             std::vector<MovedMethods> by;
             for (const DiscretizedCell &of : cells)
-              by.push_back({of.model(), sheet, load, *methods.fitted});
+              by.push_back({of.model(), what.of.sheet, load, *methods.fitted});
             for (std::size_t k = 0; k < what.strains.size() && distances[k].mean.reached; ++k)
               for (const std::string &name : methods.names)
                 try
@@ -145,8 +143,8 @@ void ReferenceUncertainty::add_errors(const Measurement &what, const meshes::She
 const UncertaintyRow *ReferenceUncertainty::stored(const Measurement &what, const double strain,
                                                    const std::string &method) const
 {
-  const UncertaintyRow wanted = {cell.name, load.name,    name_of(what.law),
-                                 strain,    what.n_cells, method};
+  const UncertaintyRow wanted = {cell.name, load.name,        name_of(what.law),
+                                 strain,    what.of.sheet.n1, method};
   if (table != nullptr)
     for (const UncertaintyRow &row : table->rows())
       if (keys_of_row(row) == keys_of_row(wanted) &&
@@ -194,7 +192,8 @@ void ReferenceUncertainty::keep(const Measurement &what, const double strain,
     return;
   const auto row_of = [&](const std::string &method, const DiscretizationDistance &of)
   {
-    UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells, method};
+    UncertaintyRow row = {cell.name, load.name,        name_of(what.law),
+                          strain,    what.of.sheet.n1, method};
     row.p1_to_p2       = of.p1_to_p2;
     row.p1_to_refined  = of.p1_to_refined;
     row.p2_to_refined  = of.p2_to_refined;
@@ -226,8 +225,8 @@ ReferenceUncertainty::known_or_measured(const Measurement &what) const
       look_up(what, what.strains[k], known[k]) && look_up_errors(what, what.strains[k], known[k]);
   if (std::all_of(is_known.begin(), is_known.end(), [](const char is) { return is; }))
     return known;
-  tell("error bar of " + name_of(what.law) + ", " + std::to_string(what.n_cells) + " x " +
-       std::to_string(what.n_cells) + " cells: P1, P2" +
+  const std::string n = std::to_string(what.of.sheet.n1);
+  tell("error bar of " + name_of(what.law) + ", " + n + " x " + n + " cells: P1, P2" +
        (what.ladder == Ladder::with_refined_p2 ? ", refined P2" : ""));
   const std::vector<Distances> measured = measure(what);
   for (std::size_t k = 0; k < what.strains.size(); ++k)
@@ -271,15 +270,22 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     , order(order_of_p2(cell, load.is_periodic() ? order_of_p2_smooth : order_of_p2_sheet))
     , order_of_force(order_of_p2(cell, load.is_periodic() ? order_of_p2_energy : order_of_p2_sheet))
 {
-  const int n_full     = load.is_periodic() ? 1 : scope.n_cells;
-  const int n_measured = load.is_periodic() ? 1 : std::min(scope.n_small, scope.n_cells);
+  const int n_full      = load.is_periodic() ? 1 : scope.n_cells;
+  const int n_measured  = load.is_periodic() ? 1 : std::min(scope.n_small, scope.n_cells);
+  const auto references = [&](const int n) -> SheetReferences {
+    return {meshes::tile(cell.mesh, cell.lattice, n, n), cell.stiffness_of_phase(), communicator};
+  };
+  SheetReferences of_small = references(n_measured);
   const Distances small =
-    known_or_measured({n_measured, Law::linear, {small_strain}, Ladder::with_refined_p2})[0];
+    known_or_measured({of_small, Law::linear, {small_strain}, Ladder::with_refined_p2})[0];
   keep_bars(Law::linear, 0., small_strain, small);
   if (n_full != n_measured)
   {
-    const Distances full =
-      known_or_measured({n_full, Law::linear, {small_strain}, Ladder::p1_p2})[0];
+    std::unique_ptr<SheetReferences> own;
+    if (scope.full == nullptr)
+      own.reset(new SheetReferences(references(n_full)));
+    const Distances full = known_or_measured(
+      {scope.full == nullptr ? *own : *scope.full, Law::linear, {small_strain}, Ladder::p1_p2})[0];
     carry_over.mean = carry_over.to_refined = growth(full.mean, small.mean);
     carry_over.max                          = growth(full.max, small.max);
     carry_over.force                        = growth(full.force, small.force);
@@ -298,7 +304,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     {
       keep_bars(law, 0., small_strain, small);
       const std::vector<Distances> large =
-        known_or_measured({n_measured, law, strains, Ladder::with_refined_p2});
+        known_or_measured({of_small, law, strains, Ladder::with_refined_p2});
       for (std::size_t k = 0; k < strains.size(); ++k)
         if (large[k].mean.reached)
           keep_bars(law, strains[k], strains[k], large[k]);

@@ -8,6 +8,7 @@
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/reference/loads.h"
+#include "verification/reference/sheet_references.h"
 #include "verification/strain/cell_ladder.h"
 #include "verification/strain/strain_tables.h"
 
@@ -89,6 +90,7 @@ public:
     int n_small;           ///< of the small sheet per side
     double largest_strain; ///< of the study
     MethodsOfCell methods = {};
+    SheetReferences *full = nullptr; ///< of that sheet; null: made for this
   };
 
   /// @param table receives what was measured, and gives back what it holds already; on the first
@@ -118,7 +120,7 @@ private:
   };
   struct Measurement
   {
-    int n_cells;
+    SheetReferences &of;
     Law law;
     std::vector<double> strains; ///< rising
     Ladder ladder;
@@ -126,7 +128,7 @@ private:
 
   std::vector<Distances> measure(const Measurement &what) const;
   std::vector<Distances> known_or_measured(const Measurement &what) const;
-  void add_errors(const Measurement &what, const meshes::Sheet &sheet,
+  void add_errors(const Measurement &what,
                   const std::vector<std::vector<meshes::Points>> &references,
                   std::vector<Distances> &distances) const;
   bool look_up(const Measurement &what, double strain, Distances &known) const;

@@ -111,28 +111,28 @@ private:
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
     on_root(communicator, [&]() { fitted = modes_of_study(options, cell, homogenized, *output); });
-    const meshes::Sheet repeated =
-      meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
-    std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
     edges  = needs.edges ? *assessed.edges : KnownEdges();
     ladder = kept_ladder(cell, {homogenized, edges.edges}, communicator);
 
-    // One discretization serves all loads of a sheet.
-    std::unique_ptr<FineReference> of_cell, of_sheet;
+    // Made where a load asks for them; the run times have references of their own.
+    std::unique_ptr<SheetReferences> of_cell, of_sheet;
     for (const std::string &name : options.loads)
     {
       const Load load(name);
-      if (!load.is_periodic() && !full)
-        full = std::make_unique<meshes::Sheet>(
-          meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells));
-      const meshes::Sheet &sheet                = load.is_periodic() ? repeated : *full;
-      std::unique_ptr<FineReference> &reference = load.is_periodic() ? of_cell : of_sheet;
-      study_load(cell, homogenized, sheet, load, reference);
+      std::unique_ptr<SheetReferences> &its = load.is_periodic() ? of_cell : of_sheet;
+      const auto [n1, n2] =
+        load.is_periodic() ? options.supercell : std::array{options.n_cells, options.n_cells};
+      if (!its)
+        its = std::make_unique<SheetReferences>(meshes::tile(cell.mesh, cell.lattice, n1, n2),
+                                                cell.stiffness_of_phase(), communicator);
+      study_load(cell, homogenized, load, *its);
     }
-    of_cell.reset();
-    of_sheet.reset(); // the run times have references of their own
-    if (full && has_run_times(options))
-      study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
+    if (has_run_times(options))
+    {
+      of_sheet.reset();
+      study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss},
+                     meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells));
+    }
   }
 
   /// Every way to the positions at the pictured strain, where the coarse mesh matters most.
@@ -164,8 +164,7 @@ private:
   }
 
   void study_load(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
-                  const meshes::Sheet &sheet, const Load &load,
-                  std::unique_ptr<FineReference> &reference)
+                  const Load &load, SheetReferences &references)
   {
     if (options.budget && !load.is_periodic())
     {
@@ -191,23 +190,17 @@ private:
        options.n_cells,
        options.n_cells_of_error_bar,
        options.strains.back(),
-       {distinct_methods(options.methods, laws, load), ladder, &fitted}},
+       {distinct_methods(options.methods, laws, load), ladder, &fitted},
+       &references},
       output ? &output->uncertainty : nullptr, communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
     progress.done();
 
-    if (!reference)
-      reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
-                                                  ReferenceOptions(), communicator);
-    MethodsOnSheet methods = methods_on_sheet(cell, homogenized, edges, sheet, load);
+    MethodsOnSheet methods = methods_on_sheet(cell, homogenized, edges, references.sheet, load);
     methods.fitted         = fitted;
-    const LoadedSheet of_load{cell,
-                              sheet,
-                              load,
-                              uncertainty,
-                              *reference,
-                              methods,
-                              begin_budget(cell, homogenized, sheet, load)};
+    const LoadedSheet of_load{cell,        load,
+                              uncertainty, references,
+                              methods,     begin_budget(cell, homogenized, references, load)};
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
       const std::vector<double> missing = missing_strains(cell, load, laws[k]);
@@ -215,7 +208,7 @@ private:
         progress.done();
       if (missing.empty())
         continue;
-      reference->start(load, laws[k]);
+      references.by(1).start(load, laws[k]);
       // Above a level that was not reached none is tried, now or when a study is taken up again.
       bool is_reached = !is_unreached_below(cell, load, laws[k], missing.front());
       for (const double strain : missing)
@@ -225,10 +218,11 @@ private:
         if (is_reached)
           is_reached = study_level(of_load, laws[k], strain);
         else
-          on_root(communicator,
-                  [&]() {
-                    output->write_unreached({cell.name, load.name, laws[k], strain}, sheet);
-                  });
+          on_root(
+            communicator,
+            [&]() {
+              output->write_unreached({cell.name, load.name, laws[k], strain}, references.sheet);
+            });
         progress.done();
       }
     }
@@ -237,7 +231,7 @@ private:
   /// What the budget of a load asks for beside the study, if any level of it is missing.
   /// @return whether levels can be measured, on every rank
   bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
-                    const meshes::Sheet &sheet, const Load &load)
+                    SheetReferences &references, const Load &load)
   {
     const auto is_missing = [&](const double strain) {
       return budget->row_is_missing({cell.name, load.name, budget->law_of_budget, strain});
@@ -250,7 +244,7 @@ private:
                    ": the sheet by a second code, for the error budget");
     try
     {
-      budget->begin_load(cell, homogenized, sheet, load);
+      budget->begin_load(cell, homogenized, references, load);
       return true;
     }
     catch (const meshes::NotConverged &failure)
@@ -294,26 +288,27 @@ private:
   /// @return whether both found an equilibrium, from which the next level may start
   bool study_level(const LoadedSheet &of, const Law law, const double strain)
   {
-    const StrainLevel level = {of.cell.name, of.load.name, law, strain};
-    ReferenceStep fine      = of.reference.advance(strain);
+    const StrainLevel level    = {of.cell.name, of.load.name, law, strain};
+    const meshes::Sheet &sheet = of.references.sheet;
+    FineReference &reference   = of.references.by(1);
+    ReferenceStep fine         = reference.advance(strain);
     if (!fine.reached)
     {
-      const Stability at_the_end = of.reference.stability_of_last(fine);
+      const Stability at_the_end = reference.stability_of_last(fine);
       on_root(communicator,
               [&]()
               {
-                write_stop(level, {fine, at_the_end, of.sheet, of.cell},
+                write_stop(level, {fine, at_the_end, sheet, of.cell},
                            options.n_cells_of_error_bar > 0 ? options.strains
                                                             : std::vector<double>(),
                            *output);
-                output->write_unreached(level, of.sheet);
+                output->write_unreached(level, sheet);
               });
       return false;
     }
-    Stability stability = Stability::every_triangle;
-    const double seconds_stability =
-      seconds_of([&]() { stability = of.reference.stabilize(fine); });
-    const bool has_left = stability == Stability::left ||
+    Stability stability            = Stability::every_triangle;
+    const double seconds_stability = seconds_of([&]() { stability = reference.stabilize(fine); });
+    const bool has_left            = stability == Stability::left ||
                           answer_of_root(is_root && output->has_left(level), communicator);
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
@@ -325,9 +320,9 @@ private:
                 output->write_note(level, note);
               try
               {
-                ResolvedLevel resolved = {of.sheet,
+                ResolvedLevel resolved = {sheet,
                                           fine,
-                                          of.reference.n_dofs(),
+                                          reference.n_dofs(),
                                           n_ranks,
                                           of.uncertainty.at(law, strain),
                                           stability,
@@ -341,14 +336,13 @@ private:
               {
                 output->write_note(level, std::string("the coarse cloth found no equilibrium; ") +
                                             failure.what());
-                output->write_unreached(level, of.sheet);
+                output->write_unreached(level, sheet);
               }
             });
     is_solved = answer_of_root(is_solved, communicator);
     if (is_solved && of.has_budget && !has_left &&
         answer_of_root(budget->row_is_missing(level), communicator))
-      note(level,
-           "error budget: ", budget->measure(law, strain, fine.positions, of.reference, solved));
+      note(level, "error budget: ", budget->measure(law, strain, fine.positions, solved));
     return is_solved;
   }
 

@@ -68,33 +68,30 @@ void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
 }
 
 void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
-                             const meshes::HomogenizedCell &given, const meshes::Sheet &new_sheet,
+                             const meshes::HomogenizedCell &given, SheetReferences &new_references,
                              const Load &load)
 {
   if (cell != &new_cell)
     begin_cell(new_cell, given);
-  sheet = &new_sheet;
-  ReferenceOptions with_p2;
-  with_p2.order = 2;
-  p2 = std::make_unique<FineReference>(*sheet, cells.stiffness_of_phase, with_p2, communicator);
-  p2->start(load, law_of_budget);
+  references                 = &new_references;
+  const meshes::Sheet &sheet = references->sheet;
+  references->by(2).start(load, law_of_budget);
   constexpr double strain = 0.01; // any: the law is linear
   on_root(communicator,
           [&]()
           {
-            regions = regions_of(*sheet, load.is_periodic());
+            regions = regions_of(sheet, load.is_periodic());
             of_load = std::make_unique<LoadBudget>(
-              cells, *sheet, load,
-              second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain),
-              strain, budget_refinement(*sheet));
+              cells, sheet, load,
+              second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, strain),
+              strain, budget_refinement(sheet));
           });
   load_name   = load.name;
   is_periodic = load.is_periodic();
 }
 
 std::string BudgetStudy::measure(const Law law, const double strain,
-                                 const meshes::Points &positions, FineReference &reference,
-                                 const UpsampledLevel &solved)
+                                 const meshes::Points &positions, const UpsampledLevel &solved)
 {
   std::string fault;
   SolvedLevel level = {strain,  solved.coarse, solved.upsampled, positions,
@@ -104,7 +101,8 @@ std::string BudgetStudy::measure(const Law law, const double strain,
     on_root(communicator, [&]() { fault = measure_on_root(law, level); });
     return fault;
   }
-  const ReferenceStep tight = reference.tighten(1e-11), of_p2 = p2->advance(strain);
+  const ReferenceStep tight = references->by(1).tighten(1e-11),
+                      of_p2 = references->by(2).advance(strain);
   on_root(communicator,
           [&]()
           {
@@ -150,10 +148,11 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
   {
     const Load load(load_name);
     if (law == Law::linear)
-      positions = second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain);
-    else
       positions =
-        second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase, *sheet, load, strain);
+        second_linear_sheet(cells.given, cells.stiffness_of_phase, references->sheet, load, strain);
+    else
+      positions = second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase,
+                                         references->sheet, load, strain);
     row.distance =
       (tight - *positions).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
   }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
-#include "verification/reference/fine_reference.h"
+#include "verification/reference/sheet_references.h"
 #include "verification/strain/budget/budget_rows.h"
 #include "verification/strain/budget/error_budget.h"
 #include "verification/strain/strain_output.h"
@@ -38,19 +38,19 @@ public:
   /// the first rank sees it.
   bool row_is_missing(const StrainLevel &level) const;
 
-  /// Solves the sheet in linear theory by the second code, lays out the P2 reference, and at the
+  /// Solves the sheet in linear theory by the second code, starts the P2 reference, and at the
   /// first load of a cell homogenizes it in the further ways that the budget compares.
-  /// @param cell, sheet to be kept by the caller while its loads last
+  /// @param cell, references to be kept by the caller while its loads last
   /// @throws NotConverged on every rank
   void begin_load(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given,
-                  const meshes::Sheet &sheet, const Load &load);
+                  SheetReferences &references, const Load &load);
 
-  /// Measures the parts at a level that `reference` has just reached, and writes their rows.
+  /// Measures the parts at a level that the P1 reference has just reached, and writes their rows.
   /// @param positions of that level
   /// @param solved what the method made of it, on the first rank
   /// @return what was not found, empty where all was; the first rank alone knows
   std::string measure(Law law, double strain, const meshes::Points &positions,
-                      FineReference &reference, const UpsampledLevel &solved);
+                      const UpsampledLevel &solved);
 
   const Law law_of_budget;
 
@@ -66,9 +66,8 @@ private:
   const MPI_Comm communicator;
   const homogenization::UnitCell *cell = nullptr;
   BudgetCells cells;
-  std::unique_ptr<LoadBudget> of_load; ///< first rank
-  std::unique_ptr<FineReference> p2;   ///< every rank
-  const meshes::Sheet *sheet = nullptr;
+  std::unique_ptr<LoadBudget> of_load;   ///< first rank
+  SheetReferences *references = nullptr; ///< every rank
   std::vector<int> regions;
   std::string load_name;
   bool is_periodic = false;

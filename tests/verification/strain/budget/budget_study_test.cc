@@ -20,7 +20,8 @@ TEST(exact_budget_study, the_better_cell_is_p2_as_a_second_solver_finds_it)
   p1.order                            = 1;
   const meshes::HomogenizedCell given = homogenization::homogenized_cell(
     cell, homogenization::homogenize(cell, p1, MPI_COMM_WORLD), "");
-  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+  SheetReferences references(meshes::tile(cell.mesh, cell.lattice, 1, 1), cell.stiffness_of_phase(),
+                             MPI_COMM_WORLD);
   const std::filesystem::path folder =
     std::filesystem::temp_directory_path() / ("budget-study-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
@@ -28,7 +29,7 @@ TEST(exact_budget_study, the_better_cell_is_p2_as_a_second_solver_finds_it)
     Table<BudgetRow> rows(folder);
     Table<CrossCheckRow> second(folder);
     BudgetStudy budget({"linear"}, {0.01}, &rows, &second, MPI_COMM_WORLD);
-    budget.begin_load(cell, given, sheet, Load("periodic-11"));
+    budget.begin_load(cell, given, references, Load("periodic-11"));
     ASSERT_EQ(second.rows().size(), 1u);
     EXPECT_EQ(second.rows()[0].what, "p2-cell");
     EXPECT_LT(second.rows()[0].distance, 1e-9);
