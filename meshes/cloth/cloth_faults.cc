@@ -215,10 +215,9 @@ void vertices_inside_edges(const Positions &positions, std::vector<int> vertices
   }
 }
 
-void add_junctions(FaultList &faults, const ClothMesh &cloth)
+/// At rest: outlines of panels, each on its own.
+void add_junctions_at_rest(FaultList &faults, const ClothMesh &cloth, const Panels &panels)
 {
-  // At rest: outlines of panels, each on its own.
-  const Panels panels = panels_of(cloth);
   std::vector<std::vector<Edge>> outlines(static_cast<std::size_t>(panels.count));
   std::vector<std::vector<int>> corners(static_cast<std::size_t>(panels.count));
   for (const auto &[edge, owners] : edges_of(cloth.rest.triangles))
@@ -240,9 +239,15 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
                      " (a T-junction); expected triangles that share whole edges: split the "
                      "triangle of that edge there");
       });
+}
 
-  // In space: open edges. Two that leave one vertex and lie on each other were meant to be sewn,
-  // but for those of one panel, of which its rest state tells: cloth may lie folded on itself.
+/// In space: open edges. Two that leave one vertex and lie on each other were meant to be sewn. Of
+/// one panel, which may lie folded on itself, only where it is sewn up to that vertex: there the
+/// cloth goes around it, or meets in it alone.
+void add_junctions_in_space(FaultList &faults, const ClothMesh &cloth, const Panels &panels)
+{
+  constexpr double around      = 5. / 3. * M_PI; // but for a wedge of 60 degrees
+  const Eigen::VectorXd angles = sewn_angles(cloth);
   std::set<std::array<int, 2>> panels_at; // vertex in space, panel
   for (int t = 0; t < cloth.n_triangles(); ++t)
     for (const int v : cloth.triangles.row(t))
@@ -264,10 +269,13 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
     [&](const int v, const Edge &edge)
     {
       const auto &neighbours = next[v];
-      const auto meets       = [&](const int end)
-      { return std::find(neighbours.begin(), neighbours.end(), end) != neighbours.end(); };
-      if ((!meets(edge[0]) && !meets(edge[1])) ||
-          panels_at.count({v, panels.of_triangle(edges.at(edge)[0].first)}) > 0)
+      const bool may_fold   = panels_at.count({v, panels.of_triangle(edges.at(edge)[0].first)}) > 0;
+      const auto is_sewn_at = [&](const int end)
+      {
+        return std::find(neighbours.begin(), neighbours.end(), end) != neighbours.end() &&
+               (!may_fold || angles(end) > (next[end].size() > 2 ? 0. : around));
+      };
+      if (!is_sewn_at(edge[0]) && !is_sewn_at(edge[1]))
         return;
       faults.add("T-junctions",
                  "vertex " + std::to_string(v) + " at " + at(cloth.positions, v) +
@@ -313,7 +321,9 @@ std::vector<std::string> cloth_faults(const ClothMesh &cloth, const std::string 
   add_rest_shapes(faults, cloth);
   add_duplicates(faults, cloth);
   add_edge_faults(faults, cloth.positions, cloth.triangles);
-  add_junctions(faults, cloth);
+  const Panels panels = panels_of(cloth);
+  add_junctions_at_rest(faults, cloth, panels);
+  add_junctions_in_space(faults, cloth, panels);
   add_isolated(faults, cloth.positions, cloth.triangles, "vertex");
   add_isolated(faults, cloth.rest.vertices, cloth.rest.triangles, "rest vertex");
   return faults.take();

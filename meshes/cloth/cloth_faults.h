@@ -24,8 +24,8 @@ struct Surface
 /// panels, flipped triangles. In space: duplicate triangles, edges with more than two triangles,
 /// neighbours that run along an edge the same way. T-junctions: a vertex on the outline of a panel
 /// that lies inside (to 1e-4 of its length) an edge of that outline, and the same in space where
-/// the two are open, have a vertex in common and are not of one panel, which may lie folded on
-/// itself. Vertices that no triangle uses. At most three
+/// the two are open and have a vertex in common; of one panel, which may lie folded on itself, only
+/// where the sides of a dart were meant to be sewn. Vertices that no triangle uses. At most three
 /// messages per kind.
 /// @param name put before each message, usually the file
 std::vector<std::string> cloth_faults(const ClothMesh &cloth, const std::string &name);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/cloth/seams.h"
 
+#include "meshes/plain/cross.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -112,5 +115,25 @@ Eigen::VectorXi space_of_rest(const ClothMesh &cloth)
     for (int k = 0; k < 3; ++k)
       space(cloth.rest.triangles(t, k)) = cloth.triangles(t, k);
   return space;
+}
+
+Eigen::VectorXd sewn_angles(const ClothMesh &cloth)
+{
+  const auto n_vertices  = static_cast<Eigen::Index>(cloth.positions.rows());
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(n_vertices);
+  Eigen::VectorXi n_rest = Eigen::VectorXi::Zero(n_vertices);
+  for (const int v : space_of_rest(cloth))
+    if (v >= 0)
+      ++n_rest(v);
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto corner = [&](const int l) -> Eigen::RowVector2d
+      { return cloth.rest.vertices.row(cloth.rest.triangles(t, (k + l) % 3)); };
+      const Eigen::RowVector2d one = corner(1) - corner(0), other = corner(2) - corner(0);
+      if (const int v = cloth.triangles(t, k); n_rest(v) > 1)
+        angles(v) += std::atan2(std::abs(cross(one, other)), one.dot(other));
+    }
+  return angles;
 }
 } // namespace homespun::meshes

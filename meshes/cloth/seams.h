@@ -42,6 +42,10 @@ struct SeamEdge
 /// @param cloth without faults (cloth_faults.h)
 std::vector<SeamEdge> seam_edges(const ClothMesh &cloth);
 
+/// The angle that the cloth fills at rest around each vertex in space that stands for several rest
+/// vertices [rad]; 0 elsewhere.
+Eigen::VectorXd sewn_angles(const ClothMesh &cloth);
+
 /// The rest vertices at the two ends of a side.
 std::array<int, 2> rest_ends(const ClothMesh &cloth, const Side &side);
 
