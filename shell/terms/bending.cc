@@ -199,10 +199,11 @@ std::vector<int> inside_two_rings(const meshes::TriangleMesh &rest)
 
 /// Whether a triangle and those that share an edge with it lie at rest as each other's images in
 /// the middles of these edges, as in a lattice cut along one diagonal.
-bool is_of_a_lattice(const meshes::TriangleMesh &rest, const Hinges &hinges, const int t)
+/// @param slack of an edge; the gain is of second order in it
+bool is_of_a_lattice(const meshes::TriangleMesh &rest, const Hinges &hinges, const int t,
+                     const double slack)
 {
-  constexpr double slack = 1e-4; // of an edge: the gain, of second order in it, is below 1e-9
-  const auto corner      = [&](const int triangle, const int k) -> Eigen::RowVector2d
+  const auto corner = [&](const int triangle, const int k) -> Eigen::RowVector2d
   { return rest.vertices.row(rest.triangles(triangle, k % 3)); };
   for (int k = 0; k < 3; ++k)
     if (const HalfHinge &hinge = hinges.of[index(t)][index(k)]; hinge.opposite >= 0)
@@ -216,36 +217,35 @@ bool is_of_a_lattice(const meshes::TriangleMesh &rest, const Hinges &hinges, con
   return true;
 }
 
-/// Whether the patch test tells all: each panel is a lattice or has a vertex inside.
+/// Whether the patch test tells all: each triangle is near to a vertex inside, or nearly one of a
+/// lattice.
 bool is_told_by(const std::vector<int> &inside, const meshes::TriangleMesh &rest,
                 const Hinges &hinges)
 {
-  std::vector<bool> is_inside(index(rest.n_vertices()), false),
-    is_told(index(rest.n_triangles()), false);
+  constexpr int rings_to_a_corner = 4;   // of a rectangle, cut along either diagonal
+  constexpr double slack          = 0.1; // a gain below half of a per cent
+  std::vector<bool> is_near(index(rest.n_vertices()), false);
   for (const int v : inside)
-    is_inside[index(v)] = true;
-  std::vector<int> front;
-  const auto reach = [&](const int t)
+    is_near[index(v)] = true;
+  const auto n_near = [&](const int t)
   {
-    if (is_told[index(t)])
-      return;
-    is_told[index(t)] = true;
-    front.push_back(t);
-  };
-  for (int t = 0; t < rest.n_triangles(); ++t)
+    int n = 0;
     for (int k = 0; k < 3; ++k)
-      if (is_inside[index(rest.triangles(t, k))])
-        reach(t);
-  while (!front.empty())
+      n += is_near[index(rest.triangles(t, k))] ? 1 : 0;
+    return n;
+  };
+  for (int ring = 0; ring < rings_to_a_corner; ++ring)
   {
-    const int t = front.back();
-    front.pop_back();
-    for (const HalfHinge &hinge : hinges.of[index(t)])
-      if (hinge.opposite >= 0)
-        reach(hinge.neighbour);
+    std::vector<int> reached;
+    for (int t = 0; t < rest.n_triangles(); ++t)
+      if (n_near(t) > 0)
+        reached.push_back(t);
+    for (const int t : reached)
+      for (int k = 0; k < 3; ++k)
+        is_near[index(rest.triangles(t, k))] = true;
   }
   for (int t = 0; t < rest.n_triangles(); ++t)
-    if (!is_told[index(t)] && !is_of_a_lattice(rest, hinges, t))
+    if (n_near(t) < 3 && !is_of_a_lattice(rest, hinges, t, slack))
       return false;
   return true;
 }
@@ -305,9 +305,10 @@ double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateSti
 bool is_cut_along_one_diagonal(const meshes::ClothMesh &mesh,
                                const std::vector<PlateStiffness> &stiffness)
 {
-  const Hinges hinges = neighbours_of(mesh, stiffness);
+  const Hinges hinges    = neighbours_of(mesh, stiffness);
+  constexpr double slack = 1e-4; // a gain below 1e-9
   for (int t = 0; t < mesh.n_triangles(); ++t)
-    if (!is_of_a_lattice(mesh.rest, hinges, t))
+    if (!is_of_a_lattice(mesh.rest, hinges, t, slack))
       return false;
   return true;
 }
@@ -324,7 +325,8 @@ std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
     if (std::isfinite(gain))
       text << 100. * gain << " %";
     else
-      text << "an unknown part, as a panel has no vertex inside two rings along its outline";
+      text
+        << "an unknown part, as some of a panel has no vertex inside two rings along its outline";
     text << "; expected at most " << 100. * largest_patch_test_gain
          << " %: cut the mesh along one diagonal, or take bending by edge angles "
             "(shell/terms/edge_angles.h), with the linearly implicit or the implicit integrator";

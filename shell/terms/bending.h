@@ -37,8 +37,9 @@ namespace homespun::shell
 {
 /// What the plate gains by leaving a constant curvature that it could keep, over the energy of that
 /// [-]: the panels lie flat, each of one phase's stiffness, two rings of vertices along their
-/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. Infinite where nothing is
-/// left inside the rings of a panel that is no lattice cut along one diagonal: then it is unknown.
+/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. Infinite where a part of a
+/// panel, up to three quads across, has nothing inside the rings and is no lattice cut along one
+/// diagonal to a tenth of an edge: then it is unknown.
 /// @param stiffness one per phase [N m]
 /// @throws BadInput as bending_term()
 double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness);
