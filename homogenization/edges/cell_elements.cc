@@ -62,24 +62,15 @@ int first_corner(const meshes::TriangleMesh &mesh, const int triangle, const Tor
   return first;
 }
 
-/// Refuses cells that make no straight edges.
-void require_parallelogram(const UnitCell &cell, const meshes::Lattice &lattice,
-                           const Eigen::RowVector2d &origin)
+/// The corner of a cell; where it has none, a force on an edge would be that of its material alone.
+Eigen::RowVector2d corner_of(const UnitCell &cell)
+try
 {
-  meshes::require_sheets(lattice); // a force on an edge would be that of its material alone
-  const double slack = 2. * meshes::image_tolerance;
-  for (int v = 0; v < cell.mesh.n_vertices(); ++v)
-  {
-    const Eigen::RowVector2d f = lattice.fractional(cell.mesh.vertices.row(v) - origin);
-    if (f.minCoeff() >= -slack && f.maxCoeff() <= 1. + slack)
-      continue;
-    std::ostringstream text;
-    text << cell.file << ": vertex " << v << " at (" << cell.mesh.vertices.row(v)
-         << ") m lies outside the parallelogram of the lattice vectors at (" << origin
-         << ") m; expected all inside: the edges of this cell are no lattice lines, and have no "
-            "edge terms";
-    throw meshes::BadInput(text.str());
-  }
+  return meshes::corner_of_parallelogram(cell.mesh, cell.lattice);
+}
+catch (const meshes::BadInput &bad)
+{
+  throw meshes::BadInput(cell.file + ": " + bad.what());
 }
 } // namespace
 
@@ -89,9 +80,8 @@ CellElements::CellElements(const UnitCell &cell, const unsigned int order)
     , class_of(torus.vertex_of_original)
     , n_classes(torus.n_vertices + (order == 2 ? torus.n_edges() : 0))
     , stiffness_of_phase(cell.stiffness_of_phase())
-    , origin(cell.mesh.vertices.row(meshes::anchor_vertex(cell.mesh, cell.lattice)))
+    , origin(corner_of(cell))
 {
-  require_parallelogram(cell, cell.lattice, origin);
   const meshes::TriangleMesh &mesh = cell.mesh;
   nodes.resize(mesh.n_triangles(), order == 1 ? 3 : 6);
   std::vector<Eigen::RowVector2d> middles;

@@ -348,4 +348,24 @@ int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice)
   }
   return loop[best];
 }
+
+Eigen::RowVector2d corner_of_parallelogram(const TriangleMesh &mesh, const Lattice &lattice)
+{
+  require_sheets(lattice);
+  const Eigen::RowVector2d corner = mesh.vertices.row(anchor_vertex(mesh, lattice));
+  constexpr double slack          = 2. * image_tolerance;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d f = lattice.fractional(mesh.vertices.row(v) - corner);
+    if (f.minCoeff() >= -slack && f.maxCoeff() <= 1. + slack)
+      continue;
+    std::ostringstream text;
+    text << "vertex " << v << " at (" << mesh.vertices.row(v)
+         << ") m lies outside the parallelogram of the lattice vectors at (" << corner
+         << ") m; expected all inside: the edges of this cell are no lattice lines, so that no "
+            "sheet with straight edges can be cut from its cloth, and it has no edge terms";
+    throw BadInput(text.str());
+  }
+  return corner;
+}
 } // namespace homespun::meshes

@@ -92,4 +92,10 @@ std::string text_of_unmatched(const std::vector<int> &loop, const Points &points
 /// most images on the sides (the corners of a parallelogram), of those the one where both lattice
 /// vectors begin, and where the outline is not their parallelogram the lowest-left.
 int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice);
+
+/// The corner at which a cell that makes sheets with straight edges begins [m].
+/// @throws BadInput as require_sheets(), and where a vertex lies outside of the parallelogram of
+/// the
+///   lattice vectors there
+Eigen::RowVector2d corner_of_parallelogram(const TriangleMesh &mesh, const Lattice &lattice);
 } // namespace homespun::meshes

@@ -50,7 +50,6 @@ std::size_t eighth_of(const Eigen::RowVector2d &fraction, const double snap)
                                   eighths_of_cell.begin());
 }
 
-/// @throws BadInput where a vertex lies outside of the parallelogram at `origin`
 CellNodes nodes_of(const TriangleMesh &cell_mesh, const Lattice &lattice,
                    const Eigen::RowVector2d &origin)
 {
@@ -69,15 +68,6 @@ CellNodes nodes_of(const TriangleMesh &cell_mesh, const Lattice &lattice,
     nodes.whole1[index]        = static_cast<int>(std::floor(f(0) + snap));
     nodes.whole2[index]        = static_cast<int>(std::floor(f(1) + snap));
     nodes.fraction.row(v) << f(0) - nodes.whole1[index], f(1) - nodes.whole2[index];
-    if (f.minCoeff() < -snap || f.maxCoeff() > 1. + snap)
-    {
-      std::ostringstream text;
-      text << "vertex " << v << " at (" << cell_mesh.vertices.row(v)
-           << ") m lies outside the parallelogram of the lattice vectors at (" << origin
-           << ") m; expected all inside: a sheet with straight edges needs a cell whose outline is "
-              "that parallelogram ";
-      throw BadInput(text.str());
-    }
     if (classes.representative[index] == v)
       nodes.representatives.push_back(v);
   }
@@ -118,8 +108,7 @@ bool makes_sheets(const TriangleMesh &cell_mesh, const Lattice &lattice)
 {
   try
   {
-    require_sheets(lattice);
-    nodes_of(cell_mesh, lattice, cell_mesh.vertices.row(anchor_vertex(cell_mesh, lattice)));
+    corner_of_parallelogram(cell_mesh, lattice);
     return true;
   }
   catch (const BadInput &)
@@ -130,10 +119,9 @@ bool makes_sheets(const TriangleMesh &cell_mesh, const Lattice &lattice)
 
 Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
 {
-  require_sheets(lattice);
   Sheet sheet;
   sheet.lattice         = lattice;
-  sheet.origin          = cell_mesh.vertices.row(anchor_vertex(cell_mesh, lattice));
+  sheet.origin          = corner_of_parallelogram(cell_mesh, lattice);
   sheet.n1              = n1;
   sheet.n2              = n2;
   const CellNodes nodes = nodes_of(cell_mesh, lattice, sheet.origin);
