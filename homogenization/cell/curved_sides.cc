@@ -133,4 +133,23 @@ std::vector<CurvedSide> curved_sides_of(const meshes::TriangleMesh &mesh,
     throw meshes::BadInput(faults);
   return curved;
 }
+
+Eigen::VectorXd drawn_areas(const meshes::TriangleMesh &mesh,
+                            const std::vector<CurvedSide> &curved_sides)
+{
+  std::map<std::array<int, 2>, double> swept; // to the left of a side, from its chord
+  for (const auto &[a, b, sagitta] : curved_sides)
+  {
+    const Eigen::RowVector2d chord = mesh.vertices.row(b) - mesh.vertices.row(a);
+    swept[{a, b}]                  = 2. / 3. * cross(chord, sagitta);
+    swept[{b, a}]                  = -swept[{a, b}];
+  }
+  Eigen::VectorXd areas = meshes::signed_areas(mesh);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const auto its = swept.find({mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3)});
+          its != swept.end())
+        areas(t) -= its->second;
+  return areas;
+}
 } // namespace homespun::homogenization

@@ -38,4 +38,9 @@ constexpr double straightness = 1e-9;
 std::vector<CurvedSide> curved_sides_of(const meshes::TriangleMesh &mesh,
                                         const std::vector<MiddleNodes> &middles,
                                         const std::string &file);
+
+/// The areas of triangles between their curved sides: of the straight one 2/3 chord x sagitta less
+/// for each side, counter-clockwise (m) [m^2].
+Eigen::VectorXd drawn_areas(const meshes::TriangleMesh &mesh,
+                            const std::vector<CurvedSide> &curved_sides);
 } // namespace homespun::homogenization

@@ -43,8 +43,12 @@ std::vector<int> UnitCell::phase_of_group() const
 
 double UnitCell::areal_density() const
 {
-  const Eigen::VectorXd areas = meshes::signed_areas(mesh);
-  double mass                 = 0.;
+  return areal_density(meshes::signed_areas(mesh));
+}
+
+double UnitCell::areal_density(const Eigen::VectorXd &areas) const
+{
+  double mass = 0.;
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const Phase &phase = phases[static_cast<std::size_t>(mesh.material(t))];

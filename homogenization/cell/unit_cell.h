@@ -39,6 +39,8 @@ struct UnitCell
   std::vector<int> phase_of_group() const;
 
   /// Mass per area of the cell, sum over triangles of area x thickness x density / |Y| [kg/m^2].
+  /// @param areas of its triangles, drawn_areas() where it is not that of the straight ones [m^2]
+  double areal_density(const Eigen::VectorXd &areas) const;
   double areal_density() const;
 };
 } // namespace homespun::homogenization

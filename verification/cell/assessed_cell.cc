@@ -146,6 +146,13 @@ bool is_of_drawing(const AssessedCell &assessed)
   return assessed.bracket && assessed.bracket->bracket && assessed.bracket->bracket->is_of_drawing;
 }
 
+double areal_density(const UnitCell &cell, const AssessedCell &assessed)
+{
+  return is_of_drawing(assessed)
+           ? cell.areal_density(homogenization::drawn_areas(cell.mesh, cell.curved_sides))
+           : cell.areal_density();
+}
+
 AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOptions &options,
                     const MPI_Comm communicator)
 {

@@ -47,6 +47,9 @@ struct AssessedCell
 /// Whether the bracket is that of a drawing whose phases have curved sides.
 bool is_of_drawing(const AssessedCell &assessed);
 
+/// Mass per area of what the bracket is of, the drawing or the straight triangles [kg/m^2].
+double areal_density(const homogenization::UnitCell &cell, const AssessedCell &assessed);
+
 /// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
 /// inequalities.
 AssessedCell assess(const homogenization::UnitCell &cell,

@@ -270,7 +270,7 @@ ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
     {"reuss", json_matrix(result.reuss)},
     {"shift", shift_json(cell)},
     {"area", cell.lattice.area()},
-    {"areal_density", cell.areal_density()},
+    {"areal_density", areal_density(cell, assessed)}, // of the same as the bracket
     {"engineering", json_moduli(engineering)},
     {"engineering_bars", moduli_bars ? json_moduli(*moduli_bars) : ordered_json()},
     {"order", assessed.options.order},

@@ -185,7 +185,7 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
     text << line;
   }
   text << moduli_text(stiffness, moduli_bars);
-  std::snprintf(line, sizeof(line), "; %.4g kg/m^2\n", cell.areal_density());
+  std::snprintf(line, sizeof(line), "; %.4g kg/m^2\n", areal_density(cell, assessed));
   text << line;
   if (assessed.bracket)
   {

@@ -53,15 +53,16 @@ int number_of(const std::vector<Finding> &findings, const Severity severity)
 /// Size, lattice, phases and holes of a sound cell.
 void describe(const UnitCell &cell, const int n_warnings)
 {
-  const double side = std::sqrt(cell.lattice.area());
+  const double side           = std::sqrt(cell.lattice.area());
+  const Eigen::VectorXd areas = homogenization::drawn_areas(cell.mesh, cell.curved_sides);
   std::cout << cell.file << ": sound";
   if (n_warnings > 0)
     std::cout << ", with " << n_warnings << (n_warnings == 1 ? " warning" : " warnings");
   std::cout << ". " << cell.mesh.n_triangles() << " triangles, " << cell.mesh.n_vertices()
             << " vertices, cell of " << side * 100. << " cm (|Y| = " << cell.lattice.area()
             << " m^2), lattice (" << cell.lattice.vectors.row(0) << ") and ("
-            << cell.lattice.vectors.row(1) << ") m, " << cell.areal_density() << " kg/m^2\n";
-  const Eigen::VectorXd areas           = meshes::signed_areas(cell.mesh);
+            << cell.lattice.vectors.row(1) << ") m, " << cell.areal_density(areas) << " kg/m^2"
+            << (cell.curved_sides.empty() ? "\n" : " between curved sides\n");
   const std::vector<int> group_of_phase = cell.group_of_phase(),
                          phase_of_group = cell.phase_of_group();
   std::vector<double> area(phase_of_group.size(), 0.);

@@ -154,6 +154,9 @@ TEST(exact_curved_sides, six_node_triangles_are_three_node_ones_and_the_curves_b
       EXPECT_EQ(file.curved_sides[0].a + file.curved_sides[0].b, 2); // between 0 and 2
       EXPECT_NE(file.curved_sides[0].a, 1);
       EXPECT_LT((file.curved_sides[0].sagitta - Eigen::Vector2d(0.1, -0.05)).norm(), 1e-15);
+      // The segment of a parabola: two thirds of chord times height, here sqrt(2) and 0.15/sqrt(2).
+      const Eigen::Vector2d areas = drawn_areas(file.mesh, file.curved_sides);
+      EXPECT_LT((areas - Eigen::Vector2d(0.4, 0.6)).norm(), 1e-15) << areas.transpose();
     }
 }
 
@@ -228,6 +231,10 @@ TEST(exact_curved_sides, shipped_cells_draw_their_arcs)
     EXPECT_NEAR((a - middle).norm(), radius, 1e-15);
     EXPECT_NEAR((0.5 * (a + b) + side.sagitta - middle).norm(), radius, 1e-15);
   }
+  // Of a circle; the polygon has more than a thousandth less.
+  const double mass = 0.12 + (0.36 - 0.12) * M_PI * radius * radius / dots.lattice.area();
+  EXPECT_NEAR(dots.areal_density(drawn_areas(dots.mesh, dots.curved_sides)), mass, 1e-5 * mass);
+  EXPECT_LT(dots.areal_density(), (1. - 1e-3) * mass);
   for (const char *name : {"three-stiffness", "hexagonal-dots", "random-dots", "printed-patch"})
   {
     UnitCell cell = shipped(name);

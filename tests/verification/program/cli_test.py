@@ -211,6 +211,7 @@ class Homogenize(InFolder):
                      "C of the straight triangles"):
             self.assertIn(text, result.stdout)
         self.assertNotIn("faceted", result.stdout)
+        text_of_drawn = result.stdout
         drawn = json.loads((self.folder / "drawn" / "homogenize.json").read_text())
         self.assertEqual(drawn["bracket_of"], "drawing")
         self.assertIsNone(drawn["geometry"])
@@ -235,8 +236,13 @@ class Homogenize(InFolder):
         self.assertIn("geometry (an estimate, in no bar)", result.stdout)
         faceted = json.loads((self.folder / "faceted" / "homogenize.json").read_text())
         self.assertEqual(faceted["bracket_of"], "mesh")
-        # All but brackets is that of the straight triangles.
+        # All but brackets and the mass is that of the straight triangles; the mass is of circles.
         self.assertEqual(faceted["C"], drawn["C"])
+        density = 0.12 + 0.24 * math.pi * 0.28**2 / math.sqrt(0.75)
+        self.assertAlmostEqual(drawn["areal_density"] / density, 1, delta=1e-5)
+        self.assertLess(faceted["areal_density"] / density, 1 - 1e-3)
+        self.assertIn(f"; {density:.4g} kg/m^2", text_of_drawn)
+        self.assertIn(f"{density:.6g} kg/m^2 between curved sides", run("check", cell).stdout)
         self.assertEqual(faceted["geometry"]["faceted_sides"], 42)
         # The estimate brings C to within the drawing's bracket and what P2 leaves on these
         # triangles.
