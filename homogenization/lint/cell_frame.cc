@@ -53,11 +53,12 @@ MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
   std::string lines;
   for (const meshes::Frame &frame : meshes::frame_meant(mesh))
     if (!nearly && fits(frame))
-      lines = " `" + lattice_line(frame.lattice, rules.metres_per_unit) + "`";
+      cell.alternatives.push_back(frame.lattice);
   for (const meshes::Lattice &lattice : meshes::lattices_of_outline(mesh, gap))
     if (match_sides(mesh, curved_sides, lattice, rules, name).faults.empty())
-      lines +=
-        (lines.empty() ? " `" : " or `") + lattice_line(lattice, rules.metres_per_unit) + "`";
+      cell.alternatives.push_back(lattice);
+  for (const meshes::Lattice &lattice : cell.alternatives)
+    lines += (lines.empty() ? " `" : " or `") + lattice_line(lattice, rules.metres_per_unit) + "`";
   if (nearly && lines.empty())
   {
     cell.lattice = nearly->lattice;
@@ -75,6 +76,48 @@ MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
           : "the outline is wavy or toothed; expected the line" + lines +
               ", under which the whole outline matches"),
      {}});
+  return cell;
+}
+
+MatchedCell match_given_or_drawn_sides(const meshes::TriangleMesh &mesh,
+                                       const std::vector<CurvedSide> &curved_sides,
+                                       const std::optional<meshes::Lattice> &given,
+                                       const SideRules &rules, const std::string &name)
+{
+  const auto matched_by = [&](const SideRules &these)
+  {
+    return given ? match_sides(mesh, curved_sides, *given, these, name)
+                 : match_drawn_sides(mesh, curved_sides, these, name);
+  };
+  MatchedCell cell = matched_by(rules);
+  SideRules wider  = rules;
+  for (const double tolerance : {1e-6, 1e-5, 1e-4, 1e-3})
+  {
+    if (cell.faults.empty() || !cell.alternatives.empty())
+      break;
+    wider.tolerance         = tolerance;
+    const MatchedCell other = matched_by(wider);
+    const double gap        = image_gap(rules, other.lattice);
+    if (!other.faults.empty() || other.moved_vertex < 0 || image_gap(wider, other.lattice) <= gap)
+      continue;
+    std::ostringstream text;
+    text.precision(6);
+    text << name << ": opposite sides match only within a wider tolerance than " << gap
+         << " m: onto its images vertex " << other.moved_vertex << " at ("
+         << mesh.vertices.row(other.moved_vertex) << ") m would move farthest, by "
+         << other.largest_move
+         << " m; expected coordinates in double precision with 16 digits: write them anew; where "
+            "there are no more digits, as in single precision far from the origin, add the line "
+            "`set Matching tolerance = "
+         << tolerance << "`";
+    // A single point off its place is named as well; of more it is their digits.
+    if (cell.faults.size() > 1 || !cell.faults[0].place.is_known())
+      cell.faults.clear();
+    cell.faults.insert(
+      cell.faults.begin(),
+      {text.str(), {mesh.vertices.row(other.moved_vertex), -1, other.moved_vertex}});
+    break;
+  }
   return cell;
 }
 

@@ -4,6 +4,7 @@
 
 #include "homogenization/lint/side_matching.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@ namespace homespun::homogenization
 MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
                               const std::vector<CurvedSide> &curved_sides, const SideRules &rules,
                               const std::string &name);
+
+/// The same, or by the lattice that is given. Where a wider `Matching tolerance` is all that the
+/// sides need, the first fault says which.
+MatchedCell match_given_or_drawn_sides(const meshes::TriangleMesh &mesh,
+                                       const std::vector<CurvedSide> &curved_sides,
+                                       const std::optional<meshes::Lattice> &given,
+                                       const SideRules &rules, const std::string &name);
 
 /// `set Lattice vectors = ...`, the line of a cell file.
 std::string lattice_line(const meshes::Lattice &lattice, double metres_per_unit);

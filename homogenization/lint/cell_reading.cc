@@ -261,9 +261,9 @@ bool read_geometry(const CellKeys &keys, const SideRules &rules, const std::stri
   add(findings, "lattice", of_lattice);
   if (!of_lattice.empty())
     return false;
-  MatchedCell matched = given ? match_sides(cell.mesh, cell.curved_sides, *given, rules, mesh_path)
-                              : match_drawn_sides(cell.mesh, cell.curved_sides, rules, mesh_path);
-  cell.lattice        = matched.lattice;
+  MatchedCell matched =
+    match_given_or_drawn_sides(cell.mesh, cell.curved_sides, given, rules, mesh_path);
+  cell.lattice = matched.lattice;
   if (!matched.faults.empty())
   {
     add(findings, "pieces", piece_faults(cell.mesh, mesh_path));

@@ -31,8 +31,9 @@ struct MatchedCell
   bool cuts_holes     = false;
   /// Lattice offsets between edges of the outline that are images.
   std::vector<Eigen::RowVector2i> matched_offsets;
-  std::vector<meshes::MeshFault> faults;     ///< none: the cell is periodic
-  std::vector<meshes::Lattice> alternatives; ///< of another area, of which the drawing may be, too
+  std::vector<meshes::MeshFault> faults; ///< none: the cell is periodic
+  /// Of another area, of which the drawing may be, too; of a cell with faults, under which it fits.
+  std::vector<meshes::Lattice> alternatives;
 };
 
 /// Matches the sides of a cell by its lattice.

@@ -254,6 +254,34 @@ TEST(tripwire_drawn_cells, a_tab_that_reaches_into_its_image_is_no_hole)
   EXPECT_FALSE(reading.is_whole) << tests::texts_of(reading);
 }
 
+TEST(tripwire_drawn_cells, sides_in_single_precision_are_told_the_tolerance_that_matches_them)
+{
+  const meshes::Lattice lattice{(Eigen::Matrix2d() << 1., 0.1, 0.37, 0.9).finished()};
+  const DrawnCell drawn;
+  for (const double far : {20., 300.})
+    for (const char *given : {"", "set Lattice vectors = 1 0.1; 0.37 0.9\n"})
+    {
+      meshes::TriangleMesh mesh = tests::parallelogram(lattice, 8, 8);
+      mesh.vertices             = (mesh.vertices.array() + far).cast<float>().cast<double>();
+      const std::string said    = tests::texts_of(drawn.read(mesh, {}, given));
+      const std::size_t first   = said.find("set Matching tolerance");
+      ASSERT_NE(first, std::string::npos) << said;
+      EXPECT_EQ(said.find("Lattice vectors"), std::string::npos) << said;
+      const std::string line = said.substr(first, said.find('`', first) - first) + "\n";
+      EXPECT_TRUE(drawn.read(mesh, {}, given + line).is_whole) << said;
+    }
+}
+
+TEST(tripwire_drawn_cells, a_line_of_the_lattice_goes_before_a_tolerance)
+{
+  meshes::TriangleMesh mesh = tests::parallelogram(tests::square_lattice(1.), 8, 8);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    mesh.vertices(v, 0) += 3e-4 * std::sin(2. * M_PI * mesh.vertices(v, 1));
+  const std::string said = tests::texts_of(DrawnCell().read(mesh, {8, false}));
+  EXPECT_NE(said.find("set Lattice vectors = 1 0; 0 1"), std::string::npos) << said;
+  EXPECT_EQ(said.find("Matching tolerance"), std::string::npos) << said;
+}
+
 TEST(long_drawn_cells, faults)
 {
   expect_faults_to_be_noticed(3, 500);
