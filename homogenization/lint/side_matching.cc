@@ -177,6 +177,10 @@ struct DrawnRim
   {
     return -2. * rim.area * lattice.area() / length();
   }
+  bool is_gap() const // and no overlap
+  {
+    return mean_width() > -2e-9 * length();
+  }
   bool is_thin() const
   {
     return mean_width() < least_width * length() / static_cast<double>(n()) * (1. - 1e-9);
@@ -205,9 +209,13 @@ MeshFault unlike_sides(const DrawnRim &its, const std::size_t where, const doubl
   }
   const meshes::Points points        = points_of(its.mesh, loop);
   const meshes::ImageClasses classes = meshes::match_images(points, its.lattice);
-  const double tolerance             = gap / std::sqrt(its.lattice.area());
-  const std::string remedy =
-    ", widen the key `Matching tolerance`, or set `Slits = real` where a slit is meant";
+  std::ostringstream remedy;
+  if (its.is_gap())
+    remedy << ", or set `Slits = real` where the gap is meant, which is "
+           << std::max(0., its.mean_width()) << " m wide on average";
+  if (its.is_gap() && its.rim.void_angles[where] >= least_opening)
+    remedy << ": meshed with edges no longer than " << its.mean_width() / least_width
+           << " m it is a hole";
   // From the place on, whichever comes first.
   for (std::size_t step = 0; step < loop.size(); ++step)
   {
@@ -218,7 +226,9 @@ MeshFault unlike_sides(const DrawnRim &its, const std::size_t where, const doubl
       continue;
     const int vertex = loop[static_cast<std::size_t>(i)];
     return {name + ": opposite sides are not meshed alike: " +
-              meshes::text_of_unmatched(loop, points, its.lattice, i, tolerance) + remedy,
+              meshes::text_of_unmatched(loop, points, its.lattice, i,
+                                        gap / std::sqrt(its.lattice.area())) +
+              remedy.str(),
             {its.mesh.vertices.row(vertex), -1, vertex}};
   }
   const std::size_t before = (where + its.n() - 1) % its.n();
@@ -227,7 +237,7 @@ MeshFault unlike_sides(const DrawnRim &its, const std::size_t where, const doubl
             place_text(its.mesh, its.end(before)) +
             ", its image, a gap opens that is narrower than half of the edges beside it; expected "
             "edges that are images: a triangle may be missing there, or mend `Lattice vectors`" +
-            remedy,
+            remedy.str(),
           {its.mesh.vertices.row(its.begin(where)), -1, its.begin(where)}};
 }
 
@@ -297,9 +307,8 @@ void look_at_rims(MatchedCell &cell, const SideRules &rules, const double gap,
     const DrawnRim its{rim, cell.mesh, cell.lattice};
     if (!rim.period.isZero() || !its.crosses_sides())
       continue;
-    cell.cuts_holes     = true;
-    const double length = its.length();
-    if (rules.slits == Slits::real && rim.area * cell.lattice.area() < 1e-9 * length * length)
+    cell.cuts_holes = true;
+    if (rules.slits == Slits::real && its.is_gap())
       continue;
     std::optional<std::size_t> where;
     for (std::size_t k = 0; k < its.n(); ++k)

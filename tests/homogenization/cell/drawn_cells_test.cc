@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A cell is what was drawn: whatever the outline and the digits of a mesh, its stiffness is that of
 // the drawing, or the cell is refused.
+#include "meshes/plain/refine.h"
 #include "tests/homogenization/cell/drawn_cells.h"
 
 #include <gtest/gtest.h>
@@ -208,6 +209,26 @@ TEST(tripwire_drawn_cells, the_end_of_a_bar_that_is_off_as_a_whole_is_no_hole)
     EXPECT_NE(tests::texts_of(reading).find("opposite sides are not meshed alike"),
               std::string::npos)
       << tests::texts_of(reading);
+  }
+}
+
+TEST(tripwire_drawn_cells, a_hole_narrower_than_half_of_its_edges_is_told_what_makes_it_one)
+{
+  // Along the whole of one side but for a strap.
+  meshes::TriangleMesh mesh =
+    tests::pixels(4, [](const int i, const int j) { return i != 0 || j == 1; });
+  mesh.vertices.col(1) *= 6.;
+  const DrawnCell drawn;
+  for (const std::string lattice : {"", "set Lattice vectors = 1 0; 0 6\n"})
+  {
+    const std::string said = tests::texts_of(drawn.read(mesh, {}, lattice));
+    EXPECT_NE(said.find("which is 0.00236842 m wide on average: meshed with edges no longer than "
+                        "0.00473684 m it is a hole"),
+              std::string::npos)
+      << said;
+    EXPECT_EQ(said.find("tolerance"), std::string::npos) << said;
+    EXPECT_TRUE(drawn.read(meshes::refined(mesh, 1), {}, lattice).is_whole);
+    EXPECT_TRUE(drawn.read(mesh, {}, lattice + "set Slits = real\n").is_whole);
   }
 }
 
