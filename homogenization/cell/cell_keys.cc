@@ -12,7 +12,8 @@ void CellKeys::declare(ParameterKeys &keys)
   keys.add(
     "Mesh", mesh,
     "Mesh of one periodic cell, a file in the folder of this one or below, with triangles or "
-    "quadrilaterals: .msh, .vtk, .vtu, .ucd, .inp, .unv, .med or any other that meshio reads.");
+    "quadrilaterals: .msh, .vtk, .vtu, .ucd, .inp, .unv, .med, .obj (whose groups are those of "
+    "`usemtl`, else of `g`) or any other that meshio reads.");
   keys.add("Length unit", length_unit,
            "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
   keys.add("Young's modulus", young,

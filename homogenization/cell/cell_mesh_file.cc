@@ -3,6 +3,7 @@
 
 #include "homogenization/mesh_files/converted_mesh.h"
 #include "homogenization/mesh_files/mesh_formats.h"
+#include "meshes/files/obj_reader.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
@@ -44,9 +45,30 @@ DecimalDigits digits_of(const RawMesh &raw)
   return digits;
 }
 
+RawMesh read_obj_cell(const std::string &file)
+{
+  const meshes::ObjContent obj = meshes::read_obj(file, meshes::NeedsVt::no);
+  RawMesh raw;
+  for (const auto &[x, y, z] : obj.v)
+    raw.points.emplace_back(x, y, z);
+  for (std::size_t k = 0; k < obj.faces.size(); ++k)
+  {
+    const std::vector<meshes::ObjCorner> &face = obj.faces[k];
+    raw.cells.push_back({{face[0].v, face[1].v, face[2].v, face.back().v},
+                         static_cast<int>(face.size()),
+                         obj.group_of_face[k]});
+  }
+  raw.number_of_name = obj.number_of_group;
+  raw.digits         = digits_of(raw);
+  return raw;
+}
+
 RawMesh read_any(const std::string &file, const MPI_Comm communicator)
 {
-  if (lower(std::filesystem::path(file).extension().string()) == ".msh")
+  const std::string ending = lower(std::filesystem::path(file).extension().string());
+  if (ending == ".obj")
+    return read_obj_cell(file);
+  if (ending == ".msh")
   {
     MeshText text(file);
     return read_msh(text);

@@ -28,7 +28,7 @@ struct CellMeshFile
 /// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that
 /// lies inside, where they are not convex); elements are turned counter-clockwise; points that no
 /// element has as a corner are left out, the middle nodes of six-node triangles among them. Text
-/// .msh 1, 2 and 4 is read here, any other format converted to it first.
+/// .msh 1, 2 and 4 and .obj are read here, any other format converted to .msh first.
 /// @param communicator as of converted_to_msh()
 /// @throws BadInput naming the file, the line, what was found and what was expected
 CellMeshFile read_cell_mesh(const std::string &file, MPI_Comm communicator = MPI_COMM_NULL);

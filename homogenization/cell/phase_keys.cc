@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/cell_keys.h"
+#include "homogenization/mesh_files/mesh_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -330,7 +331,10 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
       data += (data.empty() ? "`" : ", `") + name + "`";
     faults.push_back(
       file + ": the mesh " + keys.mesh +
-      (data.empty() || std::filesystem::path(keys.mesh).extension() == ".msh"
+      (lower(std::filesystem::path(keys.mesh).extension().string()) == ".obj"
+         ? " has no groups, so that no triangle has a material; expected one per material: "
+           "`usemtl ground` in front of the faces of each"
+       : data.empty() || std::filesystem::path(keys.mesh).extension() == ".msh"
          ? " has no physical groups, so that no triangle has a material; expected one "
            "per material: in Gmsh `Physical Surface(\"ground\", 1) = {...};`"
          : " has no groups, so that no triangle has a material: its cell data are " + data +

@@ -85,7 +85,7 @@ private:
       words_of(std::string_view(line).substr(0, line.find('#')));
     if (words.empty())
       return;
-    static const std::set<std::string_view> skipped = {"o", "g", "s", "vn", "usemtl", "mtllib"};
+    static const std::set<std::string_view> skipped = {"o", "s", "vn", "mtllib"};
     // What ARCSim adds of velocities, edges, remeshing and labels does not touch positions and
     // faces.
     static const std::set<std::string_view> of_arcsim = {"ny", "nv", "nl", "e",  "ea",
@@ -96,6 +96,10 @@ private:
       read_coordinates(words, content.vt);
     else if (words[0] == "f")
       read_face(words);
+    else if (words[0] == "usemtl" || words[0] == "g")
+      (words[0] == "g" ? group : material) =
+        words.size() == 1 ? ""
+                          : std::string(words[1].data(), words.back().data() + words.back().size());
     else if (of_arcsim.count(words[0]) > 0)
       content.passed_over.insert(std::string(words[0]));
     else if (skipped.count(words[0]) == 0)
@@ -167,14 +171,20 @@ private:
       }
       face.push_back(corner);
     }
-    if (is_sound)
-      content.faces.push_back(std::move(face));
+    if (!is_sound)
+      return;
+    content.faces.push_back(std::move(face));
+    const std::string &name = material.empty() ? group : material;
+    const int next          = static_cast<int>(content.number_of_group.size()) + 1;
+    content.group_of_face.push_back(
+      name.empty() ? 0 : content.number_of_group.emplace(name, next).first->second);
   }
 
   std::string file;
   bool needs_vt;
   FaultList faults;
   ObjContent content;
+  std::string material, group; ///< of the faces to come
   int number = 0;
 };
 } // namespace

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What stands in a Wavefront OBJ file, line by line, before anything is made of it. Private to
-// obj_file and polygons.
+// What stands in a Wavefront OBJ file, line by line, before anything is made of it. What
+// obj_file, polygons and cells are made of.
 #pragma once
 
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,7 +22,10 @@ struct ObjContent
   std::vector<std::array<double, 3>> v;
   std::vector<std::array<double, 2>> vt;
   std::vector<std::vector<ObjCorner>> faces; ///< three or four corners
-  std::set<std::string> passed_over;         ///< keywords of ARCSim
+  std::vector<int> group_of_face;            ///< 0 of faces without
+  /// From 1 on; a face is of the material (`usemtl`) above it, else of the group (`g`).
+  std::map<std::string, int> number_of_group;
+  std::set<std::string> passed_over; ///< keywords of ARCSim
 };
 
 /// Whether faces without vt are a fault.
@@ -31,7 +35,7 @@ enum class NeedsVt
   yes
 };
 
-/// Reads `v`, `vt` and `f`; see obj_file.h.
+/// Reads `v`, `vt`, `f` and groups; see obj_file.h.
 /// @throws BadInput with the faults of all lines
 ObjContent read_obj(const std::string &file, NeedsVt needs_vt);
 } // namespace homespun::meshes

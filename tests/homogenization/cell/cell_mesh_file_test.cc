@@ -216,6 +216,25 @@ TEST(exact_cell_mesh_file, abaqus_sets_may_stand_anywhere_and_hold_others)
               head + "*ELSET,\nELSET=hard, GENERATE\n9, 16\n*ELSET, ELSET=soft, GENERATE\n1, 8\n");
 }
 
+TEST(exact_cell_mesh_file, obj_has_the_groups_of_its_materials_or_else_those_of_its_groups)
+{
+  const Folder folder;
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
+  const std::string left = "f 1/1 2/1 3/1\nf 1 3 4\n", right = "f 2 5 6 3\n", vt = "vt 0 0\n";
+  for (const std::string &content :
+       {"g soft\n" + left + "g hard yarn\n" + right,
+        "usemtl soft\n" + left + "usemtl hard yarn\n" + right,
+        "usemtl soft\ng a\n" + left + "g b\nusemtl hard yarn\n" + right})
+  {
+    const CellMeshFile file = read_cell_mesh(folder.file("cell.obj", points + vt + content));
+    EXPECT_EQ(file.number_of_name.size(), 2u) << content;
+    EXPECT_EQ(area_of(file, file.number_of_name.at("soft")), 1.) << content;
+    EXPECT_EQ(area_of(file, file.number_of_name.at("hard yarn")), 1.) << content;
+  }
+  const CellMeshFile file = read_cell_mesh(folder.file("cell.obj", points + vt + left + right));
+  EXPECT_EQ(area_of(file, 0), 2.);
+}
+
 TEST(exact_cell_mesh_file, unv_groups_may_be_empty_and_stand_before_the_elements)
 {
   const Folder folder;

@@ -136,6 +136,23 @@ TEST(exact_unit_cell, names_numbers_orthotropy_and_lattices_are_understood)
   EXPECT_EQ(phase.angle, 45.);
 }
 
+TEST(exact_unit_cell, obj_has_the_phases_of_its_materials_and_is_told_to_have_them)
+{
+  const CellFolder folder;
+  const std::string its_keys = replaced(keys, "cell.msh", "cell.obj");
+  const auto obj             = [&](const std::string &soft, const std::string &hard)
+  {
+    std::ofstream(folder.path / "cell.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 2 0\nv 1 2 0\n"
+      << soft << "f 1 2 4 3\n"
+      << hard << "f 3 4 6 5\n";
+  };
+  obj("usemtl soft\n", "usemtl hard\n");
+  EXPECT_EQ(folder.read(its_keys, "").phases[1].E1, 1e7);
+  obj("", "");
+  EXPECT_SAYS(folder.refusal(its_keys, ""), "expected one per material: `usemtl ground`");
+}
+
 TEST(exact_unit_cell, layers_take_the_place_of_moduli_and_thickness)
 {
   const CellFolder folder;
