@@ -16,11 +16,12 @@ namespace homespun::homogenization
 /// A mesh file as it stands: coordinates in the file's own unit, material numbers as written.
 struct CellMeshFile
 {
-  meshes::TriangleMesh mesh;                 ///< mesh.material holds the file's numbers
-  std::map<std::string, int> number_of_name; ///< names of groups, where the file has them
-  Eigen::VectorXd angle;                     ///< (m) cell data `angle` of the file [deg], or empty
-  std::vector<std::string> other_data;       ///< names of cell data that nobody reads
-  std::vector<CurvedSide> curved_sides;      ///< of six-node triangles, in the file's unit
+  meshes::TriangleMesh mesh; ///< mesh.material holds the file's numbers
+  /// Names of groups, where the file has them; 0, where no triangle has it: of all of them.
+  std::map<std::string, int> number_of_name;
+  Eigen::VectorXd angle;                ///< (m) cell data `angle` of the file [deg], or empty
+  std::vector<std::string> other_data;  ///< names of cell data that nobody reads
+  std::vector<CurvedSide> curved_sides; ///< of six-node triangles, in the file's unit
   /// To what coordinates are rounded, in the file's unit; 0 where they have all digits.
   double rounding = 0.;
 };

@@ -203,6 +203,30 @@ private:
   std::map<int, std::string> names;
 };
 
+/// Values of a set that holds all triangles are those of all groups.
+void take_for_all(const std::string &file, const CellMeshFile &mesh_file,
+                  const GroupsOfMesh &groups, GroupTables &tables, Faults &faults)
+{
+  for (const auto &[name, number] : mesh_file.number_of_name)
+  {
+    if (number != 0 || groups.present.count(0) != 0)
+      continue;
+    for (const auto &[key, values] : {std::pair("Young's modulus", &tables.young),
+                                      {"Poisson's ratio", &tables.poisson},
+                                      {"Thickness", &tables.thickness},
+                                      {"Density", &tables.density},
+                                      {"Orthotropic", &tables.orthotropic}})
+      if (auto entry = values->extract(name))
+      {
+        entry.key() = no_name;
+        if (!values->insert(std::move(entry)).inserted)
+          faults.push_back(file + ": key `" + key +
+                           "`: all groups are given a value twice, once by `" + name +
+                           "`, a set of all triangles; expected one of both");
+      }
+  }
+}
+
 /// Groups that keys name and no triangle has.
 void check_names(const std::string &file, const GroupTables &tables, const GroupsOfMesh &groups,
                  Faults &faults)
@@ -320,8 +344,9 @@ Phase phase_of_group(const std::string &file, const GroupTables &tables, const G
 std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                                  CellMeshFile &mesh_file, Faults &faults)
 {
-  const GroupTables tables(file, keys, faults);
+  GroupTables tables(file, keys, faults);
   const GroupsOfMesh groups(mesh_file);
+  take_for_all(file, mesh_file, groups, tables, faults);
   // Gmsh writes 0 where no physical group was given.
   if (!groups.has_names && groups.present == std::set<int>{0} && !groups.find(tables.young, 0) &&
       !groups.find(tables.orthotropic, 0) && !groups.find(tables.layers, 0))

@@ -115,14 +115,27 @@ class Deck:
                 yield from (number for number in self.elements if number in its)
 
     def set_of(self):
-        """{element: set}, those of *ELSET before those of *ELEMENT. A set that others hold stands
-        for them alone."""
+        """The set of each element, and the sets of all elements where others, which are partial or
+        held by one, name each. A set that others hold stands for them alone."""
         held = {its for members in self.sets.values() for its in members if isinstance(its, str)}
+        whole = [name for name in self.sets
+                 if len(set(self.members(name, set()))) == len(self.elements)]
+        named = self.set_among([name for name in self.sets if name not in whole])
+        parts = [named.get(number, self.own_set[number] if self.own_set[number] in held else None)
+                 for number in self.elements]
+        if all(parts):
+            return parts, whole
+        named = self.set_among(self.sets)
+        return [named.get(number, self.own_set[number] or None) for number in self.elements], []
+
+    def set_among(self, names):
+        """{element: set} of these sets of *ELSET, those that others of them hold left out."""
+        held = {its for name in names for its in self.sets[name] if isinstance(its, str)}
         named = {}
-        for name in self.sets:
+        for name in names:
             for number in self.members(name, set()) if name not in held else ():
                 put(named, number, name, f"element {number}")
-        return [named.get(number, self.own_set[number] or None) for number in self.elements]
+        return named
 
 
 def generated(fields):
@@ -138,7 +151,9 @@ def of_abaqus(text):
     deck = Deck(text)
     index = {number: k for k, number in enumerate(deck.points)}
     mesh = Mesh(list(deck.points.values()))
-    groups, mesh.number_of_name = numbered(deck.set_of())
+    sets, whole = deck.set_of()
+    groups, mesh.number_of_name = numbered(sets)
+    mesh.number_of_name.update({name: 0 for name in whole})  # which is no group
     for corners in deck.elements.values():
         for number in corners:
             if number not in index:

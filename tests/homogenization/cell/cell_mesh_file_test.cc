@@ -216,6 +216,29 @@ TEST(exact_cell_mesh_file, abaqus_sets_may_stand_anywhere_and_hold_others)
               head + "*ELSET,\nELSET=hard, GENERATE\n9, 16\n*ELSET, ELSET=soft, GENERATE\n1, 8\n");
 }
 
+TEST(exact_cell_mesh_file, an_abaqus_set_of_all_elements_leaves_them_in_the_sets_that_it_is_made_of)
+{
+  const Folder folder;
+  const std::string whole = content_of(data + "halves-abaqus.inp");
+  const std::string head  = whole.substr(0, whole.find("*ELSET,ELSET=hard"));
+  std::string own         = head;
+  for (const auto &[from, to] : {std::pair("Surface1", "soft"), {"Surface2", "hard"}})
+    own.replace(own.find(from), 8, to);
+  for (const std::string &sets :
+       {whole + "\n*ELSET, ELSET=all\nhard, soft\n",
+        whole + "\n*ELSET, ELSET=all, GENERATE\n1, 16\n", own + "*ELSET, ELSET=all\nsoft, hard\n"})
+  {
+    const CellMeshFile file = read_cell_mesh(folder.file("cell.inp", sets));
+    EXPECT_NEAR(area_of(file, file.number_of_name.at("soft")), 0.375, 1e-9) << sets;
+    EXPECT_NEAR(area_of(file, file.number_of_name.at("hard")), 0.625, 1e-9) << sets;
+    EXPECT_EQ(file.number_of_name.at("all"), 0);
+  }
+  // The sets of *ELEMENT count only where another set names them: Gmsh calls them Surface1, ...
+  const CellMeshFile file =
+    read_cell_mesh(folder.file("cell.inp", head + "*ELSET, ELSET=cloth, GENERATE\n1, 16\n"));
+  EXPECT_NEAR(area_of(file, file.number_of_name.at("cloth")), 1., 1e-9);
+}
+
 TEST(exact_cell_mesh_file, obj_has_the_groups_of_its_materials_or_else_those_of_its_groups)
 {
   const Folder folder;

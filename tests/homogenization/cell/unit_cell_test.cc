@@ -153,6 +153,20 @@ TEST(exact_unit_cell, obj_has_the_phases_of_its_materials_and_is_told_to_have_th
   EXPECT_SAYS(folder.refusal(its_keys, ""), "expected one per material: `usemtl ground`");
 }
 
+TEST(exact_unit_cell, a_set_of_all_triangles_gives_its_values_to_all_groups)
+{
+  const CellFolder folder;
+  const std::string mesh = replaced(msh(stripes()), "Names\n2\n", "Names\n3\n2 0 \"all\"\n");
+  const UnitCell cell =
+    folder.read(replaced(keys, "Thickness = soft: 5e-4", "Thickness = all: 4e-4"), mesh);
+  EXPECT_EQ(cell.phases[0].thickness, 4e-4);
+  EXPECT_EQ(cell.phases[1].thickness, 5e-4);
+  EXPECT_SAYS(folder.refusal(replaced(keys, "Thickness = ", "Thickness = 1e-4, all: 4e-4, "), mesh),
+              "key `Thickness`: all groups are given a value twice, once by `all`");
+  EXPECT_SAYS(folder.refusal(keys + "set Layers = all: 1e-4 1e6 0.3\n", mesh),
+              "names the group `all`, which no triangle of the mesh has");
+}
+
 TEST(exact_unit_cell, layers_take_the_place_of_moduli_and_thickness)
 {
   const CellFolder folder;
