@@ -26,12 +26,13 @@ using meshes::HomogenizedCell;
 std::string text_of(const HomogenizedCell &cell)
 {
   const Eigen::Matrix3d &C = cell.stiffness;
+  const int n_phases       = cell.mesh.material.maxCoeff() + 1;
   std::ostringstream text;
   text.precision(3);
   text << "<homespun.Cell " << 1e3 * cell.lattice.vectors.row(0).norm() << " x "
        << 1e3 * cell.lattice.vectors.row(1).norm() << " mm: " << cell.mesh.n_triangles()
-       << " triangles, " << cell.mesh.material.maxCoeff() + 1 << " phases, C11 " << C(0, 0)
-       << ", C22 " << C(1, 1) << ", C12 " << C(0, 1) << ", C66 " << C(2, 2) << " N/m, ";
+       << " triangles, " << n_phases << (n_phases == 1 ? " phase" : " phases") << ", C11 "
+       << C(0, 0) << ", C22 " << C(1, 1) << ", C12 " << C(0, 1) << ", C66 " << C(2, 2) << " N/m, ";
   if (cell.bending)
     text << "D11 " << cell.bending->stiffness(0, 0) << ", D22 " << cell.bending->stiffness(1, 1)
          << " N m, ";

@@ -197,6 +197,16 @@ class Budget(unittest.TestCase):
         self.assertIn("within 0.5 % of the cell side fine-p1", sentence)
         self.assertIn("within 0.05 % of the cell side fine-p2", sentence)
 
+    def test_labels_of_ways_that_lie_close_do_not_cover_each_other(self):
+        close = (("localized-5", 1.6e-4, 0.007), ("full-micro-4", 2.1e-4, 0.0087),
+                 ("localized+edges-4", 1.2e-4, 0.0058), ("localized+p2-4", 0.9e-4, 0.0066))
+        figure = budget.way_figure([way(*w) for w in WAYS[:5] + close], 0.01)
+        self.addCleanup(pyplot.close, figure)
+        boxes = [text.get_window_extent() for text in figure.axes[0].texts if text.get_text()]
+        self.assertGreater(len(boxes), 6)
+        self.assertEqual([(k, n) for k, box in enumerate(boxes) for n in range(k)
+                          if box.overlaps(boxes[n])], [])
+
     def test_the_interactive_plot_of_the_ways_has_the_corners_of_the_front_and_the_error_bar(self):
         figure = budget.way_figure([way(*w, bar=3e-7) for w in WAYS[:5]], 0.01)
         self.addCleanup(pyplot.close, figure)

@@ -184,6 +184,58 @@ def front_line(front, end):
     ]
 
 
+# Of a label beside its point: shift in points, and which of its edges lies there.
+SIDES = (
+    ((0, -6), "center", "top"),
+    ((0, 6), "center", "bottom"),
+    ((6, 0), "left", "center"),
+    ((-6, 0), "right", "center"),
+)
+SHARE_BEFORE = {"left": 0.0, "bottom": 0.0, "center": 0.5, "right": 1.0, "top": 1.0}
+LETTERS = 7.5  # their height [points]; 0.6 of it wide
+
+
+def add_labels(axes, ways):
+    """Writes what each point is below it, or on the side where it covers the fewest points and labels.
+
+    @param axes of a figure that is laid out
+    """
+    points = [
+        axes.transData.transform((way["seconds"], way["error_mean_per_cell"]))
+        * 72.0 / axes.figure.dpi
+        for way in ways
+    ]
+    taken = [(x - 3.5, y - 3.5, x + 3.5, y + 3.5) for x, y in points]
+    for (x, y), way in zip(points, ways):
+        text = label_of(way["way"])
+        if not text:
+            continue
+        width = 0.6 * LETTERS * len(text)
+
+        def box(side):
+            (dx, dy), horizontal, vertical = side
+            left = x + dx - SHARE_BEFORE[horizontal] * width
+            low = y + dy - SHARE_BEFORE[vertical] * LETTERS
+            return left, low, left + width, low + LETTERS
+
+        def overlaps(side):
+            left, low, right, high = box(side)
+            return sum(l < right and r > left and b < high and t > low for l, b, r, t in taken)
+
+        side = min(SIDES, key=overlaps)
+        taken.append(box(side))
+        axes.annotate(
+            text,
+            (way["seconds"], way["error_mean_per_cell"]),
+            xytext=side[0],
+            textcoords="offset points",
+            ha=side[1],
+            va=side[2],
+            fontsize=LETTERS,
+            color=FAMILIES[family(way["way"])][2],
+        )
+
+
 def way_figure(ways, side):
     """Error against time of every way, Pareto front as a step line; None without a way that has
     both.
@@ -224,19 +276,6 @@ def way_figure(ways, side):
             label=name,
             gid=way["way"],
         )
-        # Ways that take the same time lie above each other, as P1 and the corotational element do:
-        # labels apart.
-        above = family(way["way"]) == "affine" or way["way"] in ("fine-p1", "fine-p2")
-        axes.annotate(
-            label_of(way["way"]),
-            (way["seconds"], way["error_mean_per_cell"]),
-            xytext=(0, 6 if above else -6),
-            textcoords="offset points",
-            ha="center",
-            va="bottom" if above else "top",
-            fontsize=7.5,
-            color=colour,
-        )
     style.log_axes(axes)
     axes.set_xlim(left, right)
     axes.set_ylim(low, high)
@@ -253,4 +292,6 @@ def way_figure(ways, side):
     if bar:
         handles.append(Patch(color=BAND_COLOUR, alpha=BAND_ALPHA, label=BAR_LABEL))
     figure.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.draw_without_rendering()  # which lays it out
+    add_labels(axes, known)
     return figure

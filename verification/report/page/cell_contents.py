@@ -78,7 +78,7 @@ def cell_contents(results, name, gallery):
             f"{name}-run-time",
             (
                 f"{name}: run time against strain. Solid: full resolution ({reference}); "
-                "dashed: coarse solve and up-sampling."
+                "dashed: coarse solve and up-sampling by the method that the answer speaks of."
             ),
         )
     if figure := step_figure(steps):
@@ -86,8 +86,8 @@ def cell_contents(results, name, gallery):
             figure,
             f"{name}-load-step",
             (
-                f"{name}: the parts of one load step; the number is full resolution "
-                "over coarse solve and up-sampling."
+                f"{name}: the parts of one load step by localized, the paper's method; the number"
+                " is full resolution over coarse solve and up-sampling."
             ),
         )
     if cell.stiffness() is not None:
