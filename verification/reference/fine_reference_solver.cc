@@ -79,7 +79,7 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
     solver.reset(); // before its constraints change
     linear_rate.reset();
     seconds_of_linear_solve = 0.;
-    load = std::make_unique<Load>(new_load);
+    load                    = std::make_unique<Load>(new_load);
     constrain(*load);
     solver = std::make_unique<homogenization::ElasticSolver>(discretization, constraints);
   }
