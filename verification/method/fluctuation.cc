@@ -6,6 +6,14 @@
 
 namespace homespun::verification
 {
+bool fluctuates(const meshes::HomogenizedCell &cell, const Eigen::Vector3d &strain)
+{
+  meshes::Points w = meshes::Points::Zero(cell.chi.rows(), 2);
+  for (int a = 0; a < 3; ++a)
+    w += strain(a) * cell.chi.middleCols<2>(2 * a);
+  return (w.rowwise() - w.row(0)).cwiseAbs().maxCoeff() >= 1e-10 * std::sqrt(cell.lattice.area());
+}
+
 FluctuationMeasure::FluctuationMeasure(const meshes::HomogenizedCell &cell,
                                        const meshes::Sheet &sheet, const Load &load)
     : cell(&cell)

@@ -17,6 +17,12 @@ struct Fluctuation
   double seconds = 0.; ///< of both homogenized sheets, one thread
 };
 
+/// Whether the cell fluctuates under a macroscopic strain: by its chi, which is not zero to 1e-10
+/// of the cell side. Nothing does in one material, nor where phases differ in the shear modulus
+/// alone and are pulled along its axes.
+/// @param strain 11, 22, 12 with engineering shear, of size one
+bool fluctuates(const meshes::HomogenizedCell &cell, const Eigen::Vector3d &strain);
+
 /// Fluctuations of one sheet under one load, from strain to strain.
 ///
 /// The homogenized sheet has the stiffness C^H in every triangle, the same edges held, and quads a

@@ -217,7 +217,8 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
   else
     conclude(orders, limit, result);
   // Only orders that were concluded lie in a range of positive ones.
-  if (result.outcome == Outcome::fail && together && together->contains(result.order))
+  if (result.outcome == Outcome::fail && together && together->contains(result.order) &&
+      orders.back() >= together->lowest) // a last one below is no power's
   {
     result.outcome = Outcome::inconclusive;
     result.why     = "not yet in the asymptotic range: several powers show together at " +

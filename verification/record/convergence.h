@@ -81,7 +81,7 @@ struct OrderJudgement
 /// @param errors (n) not negative
 /// @param floor what round-off and solvers leave in an error; from the first error below it the
 ///   levels are left out, because they show the floor and no order
-/// @param together what several powers may show
+/// @param together what several powers may show, in the order and in the last one
 OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<double> &errors,
                             const OrderLimit &limit, double floor = 0.,
                             const std::optional<OrderLimit> &together = std::nullopt);

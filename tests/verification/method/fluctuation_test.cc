@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 using namespace homespun;
 using namespace homespun::verification;
 
@@ -19,8 +21,11 @@ struct Striped
   meshes::HomogenizedCell homogenized;
   meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 4, 4);
 
-  Striped()
+  /// @param change of the phases
+  explicit Striped(const std::function<void(homogenization::Phase &, std::size_t)> &change = {})
   {
+    for (std::size_t p = 0; change && p < cell.phases.size(); ++p)
+      change(cell.phases[p], p);
     homogenization::HomogenizationOptions p1;
     p1.order    = 1;
     homogenized = homogenization::homogenized_cell(
@@ -28,6 +33,27 @@ struct Striped
   }
 };
 } // namespace
+
+TEST(exact_fluctuation, chi_says_under_which_strains_a_cell_fluctuates)
+{
+  const auto strains_of = [](const Striped &striped)
+  {
+    std::string all;
+    for (int a = 0; a < 3; ++a)
+      all += fluctuates(striped.homogenized, Eigen::Vector3d::Unit(a)) ? "y" : "n";
+    return all;
+  };
+  EXPECT_EQ(strains_of(Striped()), "yyy");
+  EXPECT_EQ(strains_of(Striped(
+              [](homogenization::Phase &phase, const std::size_t p) { // unlike in shear alone
+                phase.E1 = phase.E2 = 1e6;
+                phase.G12           = 3e5 * (1. + static_cast<double>(p));
+              })),
+            "nny");
+  EXPECT_EQ(strains_of(Striped([](homogenization::Phase &phase, std::size_t)
+                               { phase.E1 = phase.E2 = 1e6, phase.G12 = 1e6 / 2.6; })),
+            "nnn");
+}
 
 TEST(exact_fluctuation, in_an_infinite_cloth_it_is_the_distance_from_the_affine_motion)
 {

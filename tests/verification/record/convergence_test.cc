@@ -118,6 +118,22 @@ TEST(tripwire_convergence, an_error_that_ends_on_a_plateau_fails_however_much_of
       }
 }
 
+TEST(tripwire_convergence, errors_that_stall_fail_where_several_powers_may_show_together)
+{
+  const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
+  const auto outcome          = [&](const double last)
+  {
+    std::vector<double> errors = {1.};
+    for (const double order : {2., 1.9, last})
+      errors.push_back(errors.back() * std::pow(0.5, order));
+    const OrderJudgement found = judge_errors(h, errors, about(1.), 0., OrderLimit{1.1, 2.1});
+    EXPECT_TRUE(found.order > 1.1 && found.order < 2.1);
+    return found.outcome;
+  };
+  EXPECT_EQ(outcome(0.5), Outcome::fail);
+  EXPECT_EQ(outcome(1.85), Outcome::inconclusive);
+}
+
 TEST(exact_convergence, every_order_is_in_its_band_or_fails)
 {
   const std::vector<double> h = sizes();
