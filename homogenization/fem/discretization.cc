@@ -77,11 +77,6 @@ FEValues<2> Discretization::fe_values(const Quadrature<2> &quadrature,
   return {mapping, element, quadrature, flags};
 }
 
-FEValues<2> Discretization::gradients_of_nodes(const Quadrature<2> &quadrature) const
-{
-  return {mapping, element.base_element(0), quadrature, update_gradients | update_JxW_values};
-}
-
 std::vector<Node> Discretization::nodes() const
 {
   std::vector<Node> of_cells;

@@ -57,17 +57,6 @@ public:
                                 dealii::UpdateFlags flags = dealii::update_gradients |
                                                             dealii::update_JxW_values) const;
 
-  /// Gradients of the shapes of one component, which all share: shape k is that of node k. Half the
-  /// work of those of the whole element, or a third. To be set to a cell of the triangulation,
-  /// on_mesh(cell).
-  dealii::FEValues<2> gradients_of_nodes(const dealii::Quadrature<2> &quadrature) const;
-
-  template <typename Cell>
-  static dealii::Triangulation<2>::cell_iterator on_mesh(const Cell &cell)
-  {
-    return cell;
-  }
-
   /// Calls work(cell, dofs) for each cell that this rank owns, with the DoFs of its shapes.
   template <typename Work>
   void for_owned_cells(const Work &work) const

@@ -2,8 +2,9 @@
 // What solves a ClothReference: its finite elements, mass and constraints, from time to time.
 #pragma once
 
-#include "homogenization/fem/elastic_solver.h"
+#include "homogenization/fem/cell_entries.h"
 #include "homogenization/fem/kept_preconditioner.h"
+#include "homogenization/fem/node_gradients.h"
 #include "verification/reference/cloth_reference.h"
 
 #include <memory>
@@ -58,7 +59,8 @@ private:
   template <int n_shapes>
   struct ElasticSums;
   template <int n_shapes>
-  ElasticSums<n_shapes> integrate(const dealii::FEValues<2> &fe_values, const Eigen::Matrix3d &C,
+  ElasticSums<n_shapes> integrate(const homogenization::NodeGradients &gradients,
+                                  const Eigen::Matrix3d &C,
                                   const Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor> &at,
                                   Tangent tangent, double tension) const;
   Evaluation summed(std::vector<double> sums, const Vector &positions, Vector &residual) const;
@@ -69,6 +71,11 @@ private:
                       Tangent tangent, double tension);
   void minimize(Vector &positions, const Inertia &inertia, double tension, ClothStep &step);
   void advance(double dt, ClothStep &step);
+  template <int n_shapes>
+  double stored_energy_of_cells() const;
+  template <int n_shapes>
+  double kinetic_energy_of_cells() const;
+  std::size_t phase_of(int cell) const;
   meshes::SpacePoints at_vertices(const Vector &values) const;
 
   const ClothReferenceOptions options;
@@ -88,6 +95,7 @@ private:
   std::vector<char> is_held;                              ///< what the matrix is laid out for
   dealii::AffineConstraints<double> constraints;
   std::unique_ptr<homogenization::ElasticSolver> solver;
+  std::unique_ptr<homogenization::CellEntries> cells; ///< of its matrix
   homogenization::KeptPreconditioner preconditioner;
 
   Vector position, velocity, load_origin;

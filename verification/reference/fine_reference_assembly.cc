@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Energy, forces and tangent of a resolved sheet.
-#include "meshes/plain/errors.h"
+#include "homogenization/fem/node_gradients.h"
+#include "verification/reference/element_stiffness.h"
 #include "verification/reference/fine_reference_solver.h"
 
 #include <deal.II/base/mpi.h>
@@ -25,88 +26,59 @@ bool has_negative_eigenvalue(const Eigen::Matrix4d &tangent, const Eigen::Matrix
   return (tangent + round_off * Eigen::Matrix4d::Identity()).llt().info() != Eigen::Success;
 }
 
-/// Adds w D^T T D. Coefficient by coefficient, for Eigen packs the operands of a product of this
-/// size, which takes longer than the product.
-template <int n>
-void add_tangent(const Eigen::Matrix4d &tangent, const Eigen::Matrix<double, 4, n> &D,
-                 const double weight, Eigen::Matrix<double, n, n> &K)
-{
-  const Eigen::Matrix4d weighted          = weight * tangent;
-  const Eigen::Matrix<double, 4, n> force = weighted.lazyProduct(D);
-  K += D.transpose().lazyProduct(force);
-}
-/// Of the shape of one node.
-Eigen::Vector2d gradient_of(const FEValues<2> &fe_values, const unsigned int node,
-                            const unsigned int q)
-{
-  const Tensor<1, 2> &gradient = fe_values.shape_grad(node, q);
-  return {gradient[0], gradient[1]};
-}
 } // namespace
 
 /// What one triangle adds to matrix and forces.
 template <int n_shapes>
 struct FineReference::Solver::TriangleSums
 {
-  static constexpr int n        = 2 * n_shapes;
-  Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
-  Eigen::Matrix<double, n, 1> f = Eigen::Matrix<double, n, 1>::Zero();
+  ElementStiffness<2, n_shapes> K = ElementStiffness<2, n_shapes>::Zero();
+  Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> f =
+    Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor>::Zero();
   bool is_inverted = false, is_indefinite = false;
 };
 
 template <int n_shapes>
 FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
-  const FEValues<2> &fe_values, const LawOfPhase &phase, const std::vector<double> &values,
+  const homogenization::NodeGradients &gradients, const LawOfPhase &phase,
+  const Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> &displacements,
   const Eigen::Matrix2d &mean_gradient, const Tangent tangent, Evaluation &state) const
 {
-  constexpr int n          = 2 * n_shapes;
   const Eigen::Matrix3d &C = phase.stiffness();
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double rounded     = epsilon * C.cwiseAbs().maxCoeff();
   TriangleSums<n_shapes> sums;
-  for (const unsigned int q : fe_values.quadrature_point_indices())
+  for (int q = 0; q < gradients.n_points(); ++q)
   {
-    // D maps the displacements of the nodes to the entries F11, F12, F21, F22 of grad u.
-    Eigen::Matrix<double, 4, n> D = Eigen::Matrix<double, 4, n>::Zero();
-    Eigen::Matrix2d F             = mean_gradient;
-    double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
-    for (int i = 0; i < n_shapes; ++i)
-    {
-      const auto k                     = static_cast<std::size_t>(i);
-      const Eigen::Vector2d g          = gradient_of(fe_values, static_cast<unsigned int>(i), q);
-      D.template block<2, 1>(0, 2 * i) = g;
-      D.template block<2, 1>(2, 2 * i + 1) = g;
-      F.row(0) += values[2 * k] * g.transpose();
-      F.row(1) += values[2 * k + 1] * g.transpose();
-      size_of_terms += Eigen::Vector2d(values[2 * k], values[2 * k + 1]).norm() * g.norm();
-      slopes += g.squaredNorm();
-    }
-    const double weight = fe_values.JxW(q);
+    const auto slopes       = gradients.at<n_shapes>(q);
+    const double weight     = gradients.weight(q);
+    const Eigen::Matrix2d F = mean_gradient + displacements.transpose().lazyProduct(slopes).eval();
+    // Of the sum that F is.
+    const double size_of_terms =
+      mean_gradient.norm() +
+      (displacements.rowwise().norm().array() * slopes.rowwise().norm().array()).sum();
     if (!(F.determinant() > 0.))
     {
       sums.is_inverted = true;
       if (law == Law::green)
         state.energy = std::numeric_limits<double>::infinity();
     }
-    state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
+    state.round_off += slopes.squaredNorm() * std::pow(weight * rounded * size_of_terms, 2);
     const Response local = phase.response(F);
-    state.energy += weight * local.energy;
-    state.energy_round_off += weight * local.stress.norm() * epsilon * size_of_terms;
-    sums.f.noalias() += weight * D.transpose() * local.stress;
-    state.forces.stress +=
+    const Eigen::Matrix2d stress =
       weight * Eigen::Map<const Eigen::Matrix2d>(local.stress.data()).transpose();
-    if (tangent == Tangent::exact)
-    {
-      sums.is_indefinite = sums.is_indefinite || has_negative_eigenvalue(local.tangent, C);
-      add_tangent(local.tangent, D, weight, sums.K);
-    }
-    else if (tangent == Tangent::projected)
-    {
-      // Most triangles have no negative part, which is cheaper to see than to take out.
-      const Eigen::Matrix4d positive =
-        has_negative_eigenvalue(local.tangent, C) ? positive_part(local.tangent) : local.tangent;
-      add_tangent(positive, D, weight, sums.K);
-    }
+    state.energy += weight * local.energy;
+    state.energy_round_off += stress.norm() * epsilon * size_of_terms;
+    sums.f += slopes.lazyProduct(stress.transpose());
+    state.forces.stress += stress;
+    if (tangent == Tangent::none)
+      continue;
+    // Most triangles have no negative part, which is cheaper to see than to take out.
+    const bool is_indefinite = has_negative_eigenvalue(local.tangent, C);
+    sums.is_indefinite       = sums.is_indefinite || is_indefinite;
+    add_stiffness<2, n_shapes>(
+      is_indefinite && tangent == Tangent::projected ? positive_part(local.tangent) : local.tangent,
+      slopes, weight, sums.K);
   }
   return sums;
 }
@@ -116,48 +88,33 @@ FineReference::Solver::Evaluation
 FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
                                 Vector &residual, const Tangent tangent)
 {
-  constexpr int n = 2 * n_shapes;
-  IndexSet ghosts = constraints.get_local_lines();
-  ghosts.add_indices(discretization.locally_active);
-  Vector ghosted(discretization.locally_owned, ghosts, discretization.communicator);
-  ghosted  = displacement;
-  residual = 0.;
+  const Vector everywhere = cells->with_ghosts(displacement);
+  residual                = 0.;
   if (tangent != Tangent::none)
     solver->matrix = 0.;
 
   Evaluation state;
-  FEValues<2> fe_values = discretization.gradients_of_nodes(
-    law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature);
-  std::vector<double> values(n);
-  FullMatrix<double> element_matrix(n, n);
-  dealii::Vector<double> element_residual(n);
-  discretization.for_owned_cells(
-    [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
-    {
-      fe_values.reinit(discretization.on_mesh(cell));
-      const LawOfPhase &phase = phases[cell->material_id()];
-      ghosted.extract_subvector_to(dofs, values);
-      const TriangleSums<n_shapes> sums =
-        integrate<n_shapes>(fe_values, phase, values, mean_gradient, tangent, state);
-      state.n_inverted += sums.is_inverted;
-      state.n_indefinite += sums.is_indefinite;
-      state.force_size += sums.f.squaredNorm();
-      for (unsigned int i = 0; i < n; ++i)
-        element_residual(i) = sums.f(static_cast<Eigen::Index>(i));
-      constraints.distribute_local_to_global(element_residual, dofs, residual);
-      for (unsigned int i = 0; i < n; i += 2)
-        if (const auto held = clamp_of_node.find(dofs[i]); held != clamp_of_node.end())
-          state.forces.on_clamps.row(held->second) +=
-            sums.f.template segment<2>(static_cast<Eigen::Index>(i)).transpose();
-      if (tangent != Tangent::none)
-      {
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            element_matrix(i, j) =
-              sums.K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-        constraints.distribute_local_to_global(element_matrix, dofs, solver->matrix);
-      }
-    });
+  homogenization::NodeGradients gradients(discretization, law == Law::linear
+                                                            ? discretization.stiffness_quadrature
+                                                            : discretization.nonlinear_quadrature);
+  for (int cell = 0; cell < cells->n_cells(); ++cell)
+  {
+    const int t = cells->triangle(cell);
+    gradients.reinit(t);
+    const TriangleSums<n_shapes> sums = integrate<n_shapes>(
+      gradients, phases[static_cast<std::size_t>(discretization.mesh.material(t))],
+      cells->values<n_shapes, 2>(everywhere, cell), mean_gradient, tangent, state);
+    state.n_inverted += sums.is_inverted;
+    state.n_indefinite += sums.is_indefinite;
+    state.force_size += sums.f.squaredNorm();
+    cells->add(sums.f, cell, residual);
+    if (tangent != Tangent::none)
+      cells->add<n_shapes, 2>(sums.K, cell);
+    for (int k = 0; k < n_shapes && !cells->is_plain(cell); ++k)
+      if (const auto held = clamp_of_node.find(cells->first_dof(cell, k));
+          held != clamp_of_node.end())
+        state.forces.on_clamps.row(held->second) += sums.f.row(k);
+  }
   residual.compress(VectorOperation::add);
   if (tangent != Tangent::none)
     solver->matrix.compress(VectorOperation::add);

@@ -76,12 +76,14 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
 {
   if (!load || load->name != new_load.name)
   {
-    solver.reset(); // before its constraints change
+    cells.reset(); // before its matrix, and that before its constraints change
+    solver.reset();
     linear_rate.reset();
     seconds_of_linear_solve = 0.;
     load                    = std::make_unique<Load>(new_load);
     constrain(*load);
     solver = std::make_unique<homogenization::ElasticSolver>(discretization, constraints);
+    cells  = std::make_unique<homogenization::CellEntries>(discretization, constraints, *solver);
   }
   law        = new_law;
   body_force = std::move(new_body_force);

@@ -2,8 +2,9 @@
 // What solves a FineReference: its finite elements and constraints, from level to level.
 #pragma once
 
-#include "homogenization/fem/elastic_solver.h"
+#include "homogenization/fem/cell_entries.h"
 #include "homogenization/fem/kept_preconditioner.h"
+#include "homogenization/fem/node_gradients.h"
 #include "verification/law/laws.h"
 #include "verification/newton/newton.h"
 #include "verification/reference/fine_reference.h"
@@ -78,10 +79,10 @@ private:
   template <int n_shapes>
   struct TriangleSums;
   template <int n_shapes>
-  TriangleSums<n_shapes> integrate(const dealii::FEValues<2> &fe_values, const LawOfPhase &phase,
-                                   const std::vector<double> &values,
-                                   const Eigen::Matrix2d &mean_gradient, Tangent tangent,
-                                   Evaluation &state) const;
+  TriangleSums<n_shapes>
+  integrate(const homogenization::NodeGradients &gradients, const LawOfPhase &phase,
+            const Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> &displacements,
+            const Eigen::Matrix2d &mean_gradient, Tangent tangent, Evaluation &state) const;
   void add_over_ranks(Evaluation &state) const;
   template <int n_shapes>
   Evaluation assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
@@ -106,6 +107,7 @@ private:
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
   std::map<dealii::types::global_dof_index, int> clamp_of_node; ///< by the first DoF; 1 moves
   std::unique_ptr<homogenization::ElasticSolver> solver;
+  std::unique_ptr<homogenization::CellEntries> cells; ///< of its matrix
   homogenization::KeptPreconditioner preconditioner;
   double seconds_of_linear_solve = 0.;
   unsigned int most_newton_steps = NewtonOptions().most_steps;
