@@ -13,18 +13,19 @@
 
 namespace homespun::shell
 {
-class BlockCholesky
+template <int dim>
+class BlockCholeskyOf
 {
 public:
   /// Lays out L for matrices of this structure.
-  explicit BlockCholesky(const BlockMatrix &matrix);
+  explicit BlockCholeskyOf(const BlockMatrixOf<dim> &matrix);
 
   /// Factors. @return whether the matrix is positive definite to working precision: every pivot
   ///   above 1e-14 of its diagonal entry
-  bool factorize(const BlockMatrix &matrix);
+  bool factorize(const BlockMatrixOf<dim> &matrix);
 
   /// Solves for the free rows; held rows of the result are zero.
-  void solve(const Vectors &right_side, Vectors &result) const;
+  void solve(const VectorsOf<dim> &right_side, VectorsOf<dim> &result) const;
 
   /// Numbers that are stored for L, the zeros of its panels included.
   std::size_t n_entries() const
@@ -40,8 +41,8 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// Consecutive columns with the same rows: a panel of 3 n_rows x 3 n_columns numbers, column by
-  /// column.
+  /// Consecutive columns with the same rows: a panel of dim n_rows x dim n_columns numbers, column
+  /// by column.
   struct Supernode
   {
     int column;        ///< first of its columns
@@ -60,7 +61,7 @@ private:
   };
   std::vector<int> lay_out_nodes(const std::vector<std::vector<int>> &rows);
   void lay_out_updates(const std::vector<int> &node_of);
-  void gather(const BlockMatrix &matrix, const Supernode &node);
+  void gather(const BlockMatrixOf<dim> &matrix, const Supernode &node);
   void subtract(const Update &update, const Supernode &node);
 
   std::vector<int> vertex_at;
@@ -73,4 +74,6 @@ private:
   std::vector<int> position;        ///< place of a row in the panel at hand
   std::size_t n_product = 0;        ///< largest product of two panels
 };
+
+using BlockCholesky = BlockCholeskyOf<3>;
 } // namespace homespun::shell

@@ -55,8 +55,9 @@ std::vector<int> elimination_order(const std::vector<std::array<int, 2>> &coupli
 }
 } // namespace
 
-BlockMatrix::BlockMatrix(const std::vector<std::array<int, 2>> &couplings,
-                         const std::vector<bool> &is_held)
+template <int dim>
+BlockMatrixOf<dim>::BlockMatrixOf(const std::vector<std::array<int, 2>> &couplings,
+                                  const std::vector<bool> &is_held)
     : place_of(is_held.size())
     , vertex_at(elimination_order(couplings, is_held))
 {
@@ -83,7 +84,9 @@ BlockMatrix::BlockMatrix(const std::vector<std::array<int, 2>> &couplings,
   blocks.assign(row.size(), Block::Zero());
 }
 
-BlockMatrix::Slot BlockMatrix::slot(const int first_vertex, const int second_vertex) const
+template <int dim>
+typename BlockMatrixOf<dim>::Slot BlockMatrixOf<dim>::slot(const int first_vertex,
+                                                           const int second_vertex) const
 {
   const int a = place_of[index(first_vertex)], b = place_of[index(second_vertex)];
   const int column = std::min(a, b), below = std::max(a, b);
@@ -98,19 +101,22 @@ BlockMatrix::Slot BlockMatrix::slot(const int first_vertex, const int second_ver
   return {static_cast<int>(found - row.begin()), a < b};
 }
 
-void BlockMatrix::clear()
+template <int dim>
+void BlockMatrixOf<dim>::clear()
 {
   std::fill(blocks.begin(), blocks.end(), Block::Zero());
 }
 
-void BlockMatrix::multiply(const Vectors &x, Vectors &y) const
+template <int dim>
+void BlockMatrixOf<dim>::multiply(const VectorsOf<dim> &x, VectorsOf<dim> &y) const
 {
-  y.setZero(x.rows(), 3);
+  y.setZero(x.rows(), dim);
   for (int c = 0; c < n_free(); ++c)
   {
-    const int v                 = vertex_at[index(c)];
-    const Eigen::RowVector3d xv = x.row(v);
-    Eigen::RowVector3d sum      = xv * blocks[index(first[index(c)])];
+    using Row    = Eigen::Matrix<double, 1, dim>;
+    const int v  = vertex_at[index(c)];
+    const Row xv = x.row(v);
+    Row sum      = xv * blocks[index(first[index(c)])];
     for (int k = first[index(c)] + 1; k < first[index(c + 1)]; ++k)
     {
       if (row[index(k)] >= n_free())
@@ -123,7 +129,8 @@ void BlockMatrix::multiply(const Vectors &x, Vectors &y) const
   }
 }
 
-void BlockMatrix::subtract_held(const Vectors &x, Vectors &y) const
+template <int dim>
+void BlockMatrixOf<dim>::subtract_held(const VectorsOf<dim> &x, VectorsOf<dim> &y) const
 {
   for (int c = 0; c < n_free(); ++c)
     for (int k = first[index(c + 1)] - 1; k > first[index(c)] && row[index(k)] >= n_free(); --k)
@@ -131,9 +138,13 @@ void BlockMatrix::subtract_held(const Vectors &x, Vectors &y) const
         x.row(vertex_at[index(row[index(k)])]) * blocks[index(k)];
 }
 
-std::size_t BlockMatrix::bytes() const
+template <int dim>
+std::size_t BlockMatrixOf<dim>::bytes() const
 {
   return blocks.size() * (sizeof(Block) + sizeof(int)) +
          (place_of.size() + vertex_at.size() + first.size()) * sizeof(int);
 }
+
+template class BlockMatrixOf<2>;
+template class BlockMatrixOf<3>;
 } // namespace homespun::shell

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A symmetric sparse matrix of 3 x 3 blocks over the vertices of a cloth. Order and sparsity are
-// laid out once; a step writes values into places that the terms looked up beforehand.
+// A symmetric sparse matrix of 3 x 3 blocks over the vertices of a cloth, or of 2 x 2 of one in its
+// plane. Order and sparsity are laid out once; a step writes values into places that the terms
+// looked up beforehand.
 //
 // Free vertices stand in a fill-reducing order (approximate minimum degree), held ones after them.
 // Only columns of free vertices are kept: their diagonal block, then the blocks below it. Blocks in
@@ -14,17 +15,21 @@
 
 namespace homespun::shell
 {
-/// One vector per vertex (n,3): positions, velocities, forces.
-using Vectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// One vector per vertex (n,dim): positions, velocities, forces.
+template <int dim>
+using VectorsOf = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
+using Vectors   = VectorsOf<3>;
 
-class BlockMatrix
+/// @tparam dim 2 or 3, which are instantiated
+template <int dim>
+class BlockMatrixOf
 {
 public:
-  using Block = Eigen::Matrix3d;
+  using Block = Eigen::Matrix<double, dim, dim>;
 
   /// @param couplings pairs of different vertices, in any order, repeated or not
   /// @param is_held (n) vertices that are no unknowns
-  BlockMatrix(const std::vector<std::array<int, 2>> &couplings, const std::vector<bool> &is_held);
+  BlockMatrixOf(const std::vector<std::array<int, 2>> &couplings, const std::vector<bool> &is_held);
 
   /// Where the block of a pair is stored.
   struct Slot
@@ -63,10 +68,10 @@ public:
 
   /// Matrix times vectors, over the free vertices: held rows of x count as zero, those of y are
   /// zero.
-  void multiply(const Vectors &x, Vectors &y) const;
+  void multiply(const VectorsOf<dim> &x, VectorsOf<dim> &y) const;
 
   /// y −= (rows of free vertices, columns of held ones) x: what a moving handle pulls.
-  void subtract_held(const Vectors &x, Vectors &y) const;
+  void subtract_held(const VectorsOf<dim> &x, VectorsOf<dim> &y) const;
 
   /// Diagonal block of a free vertex.
   const Block &diagonal(int vertex) const
@@ -98,4 +103,6 @@ public:
   std::vector<int> row;       ///< place of each block's row
   std::vector<Block> blocks;  ///< values [N/m]
 };
+
+using BlockMatrix = BlockMatrixOf<3>;
 } // namespace homespun::shell

@@ -54,15 +54,15 @@ inline double sum_of(const Lanes &x)
 }
 
 /// n_registers registers of rows of T = A B^T; see multiply().
-template <int n_registers>
+template <int dim, int n_registers>
 void multiply_rows(const double *a, const double *b, const int stride, const int depth, double *t,
                    const int t_stride)
 {
-  Lanes sum[n_registers][3];
+  Lanes sum[n_registers][dim];
 #pragma GCC unroll 3
   for (int r = 0; r < n_registers; ++r)
 #pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < dim; ++c)
       sum[r][c] = Lanes{};
   for (int k = 0; k < depth; ++k, a += stride, b += stride)
   {
@@ -71,7 +71,7 @@ void multiply_rows(const double *a, const double *b, const int stride, const int
     for (int r = 0; r < n_registers; ++r)
       x[r] = loaded(a + r * lanes);
 #pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < dim; ++c)
 #pragma GCC unroll 3
       for (int r = 0; r < n_registers; ++r)
         sum[r][c] += x[r] * b[c];
@@ -79,7 +79,7 @@ void multiply_rows(const double *a, const double *b, const int stride, const int
 #pragma GCC unroll 3
   for (int r = 0; r < n_registers; ++r)
 #pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < dim; ++c)
       std::memcpy(t + c * t_stride + r * lanes, &sum[r][c], sizeof(Lanes));
 }
 } // namespace
@@ -89,58 +89,66 @@ int padded(const int n)
   return (n + lanes - 1) / lanes * lanes;
 }
 
+template <int dim>
 void multiply(const double *a, const double *b, const int stride, const int depth, const int n,
               double *t)
 {
   const int t_stride = padded(n);
   int row            = 0;
   for (; row + (most_registers - 1) * lanes < n; row += most_registers * lanes)
-    multiply_rows<most_registers>(a + row, b, stride, depth, t + row, t_stride);
+    multiply_rows<dim, most_registers>(a + row, b, stride, depth, t + row, t_stride);
   if (row + lanes < n)
-    multiply_rows<2>(a + row, b, stride, depth, t + row, t_stride);
+    multiply_rows<dim, 2>(a + row, b, stride, depth, t + row, t_stride);
   else if (row < n)
-    multiply_rows<1>(a + row, b, stride, depth, t + row, t_stride);
+    multiply_rows<dim, 1>(a + row, b, stride, depth, t + row, t_stride);
 }
 
 namespace
 {
-/// The Cholesky factor of the three leading rows of three columns with leading dimension `stride`,
-/// and the rows below it solved with it.
+/// The Cholesky factor of the leading rows of dim columns with leading dimension `stride`, and the
+/// rows below it solved with it.
 /// @return false where a pivot is not positive
+template <int dim>
 bool factorize_columns(double *const x, const int stride, const int n)
 {
-  double *const __restrict x0 = x;
-  double *const __restrict x1 = x + stride;
-  double *const __restrict x2 = x + 2 * stride;
-  if (!(x0[0] > 0.))
-    return false;
-  const double l00 = std::sqrt(x0[0]), i0 = 1. / l00, l10 = x0[1] * i0, l20 = x0[2] * i0,
-               d1 = x1[1] - l10 * l10;
-  if (!(d1 > 0.))
-    return false;
-  const double l11 = std::sqrt(d1), i1 = 1. / l11, l21 = (x1[2] - l20 * l10) * i1,
-               d2 = x2[2] - l20 * l20 - l21 * l21;
-  if (!(d2 > 0.))
-    return false;
-  const double l22 = std::sqrt(d2), i2 = 1. / l22;
-  x0[0] = l00;
-  x0[1] = l10;
-  x0[2] = l20;
-  x1[1] = l11;
-  x1[2] = l21;
-  x2[2] = l22;
-#pragma GCC ivdep
-  for (int r = 3; r < n; ++r)
+  double l[dim][dim], inverse[dim];
+  for (int c = 0; c < dim; ++c)
   {
-    const double y0 = x0[r] * i0, y1 = (x1[r] - y0 * l10) * i1;
-    x0[r] = y0;
-    x1[r] = y1;
-    x2[r] = (x2[r] - y0 * l20 - y1 * l21) * i2;
+    double *const column = x + c * stride;
+    double square        = column[c];
+    for (int k = 0; k < c; ++k)
+      square -= l[c][k] * l[c][k];
+    if (!(square > 0.))
+      return false;
+    column[c] = l[c][c] = std::sqrt(square);
+    inverse[c]          = 1. / l[c][c];
+    for (int r = c + 1; r < dim; ++r)
+    {
+      double sum = column[r];
+      for (int k = 0; k < c; ++k)
+        sum -= l[r][k] * l[c][k];
+      column[r] = l[r][c] = sum * inverse[c];
+    }
+  }
+#pragma GCC ivdep
+  for (int r = dim; r < n; ++r)
+  {
+    double y[dim];
+#pragma GCC unroll 3
+    for (int c = 0; c < dim; ++c)
+    {
+      double sum = x[c * stride + r];
+#pragma GCC unroll 3
+      for (int k = 0; k < c; ++k)
+        sum -= y[k] * l[c][k];
+      x[c * stride + r] = y[c] = sum * inverse[c];
+    }
   }
   return true;
 }
 } // namespace
 
+template <int dim>
 bool factorize_panel(double *const panel, const int width, const int size, double *const product)
 {
   if (width >= wide)
@@ -154,14 +162,14 @@ bool factorize_panel(double *const panel, const int width, const int size, doubl
     top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
     return true;
   }
-  for (int j = 0; j < width; j += 3)
+  for (int j = 0; j < width; j += dim)
   {
     const int n = size - j, n_padded = padded(n);
     double *const columns = panel + j * size + j;
     if (j > 0)
     {
-      multiply(panel + j, panel + j, size, j, n, product);
-      for (int c = 0; c < 3; ++c)
+      multiply<dim>(panel + j, panel + j, size, j, n, product);
+      for (int c = 0; c < dim; ++c)
       {
         double *const __restrict to         = columns + c * size;
         const double *const __restrict from = product + c * n_padded;
@@ -169,53 +177,74 @@ bool factorize_panel(double *const panel, const int width, const int size, doubl
           to[r] -= from[r];
       }
     }
-    if (!factorize_columns(columns, size, n))
+    if (!factorize_columns<dim>(columns, size, n))
       return false;
   }
   return true;
 }
 
+template <int dim>
 void substitute(const double *panel, const int width, const int size, double *const x)
 {
-  for (int j = 0; j < width; j += 3, panel += 3 * size)
+  for (int j = 0; j < width; j += dim, panel += dim * size)
   {
-    const double *const __restrict l0 = panel, *const __restrict l1 = panel + size,
-                                   *const __restrict l2 = panel + 2 * size;
-    const double y0 = x[j] / l0[j], y1 = (x[j + 1] - l0[j + 1] * y0) / l1[j + 1],
-                 y2 = (x[j + 2] - l0[j + 2] * y0 - l1[j + 2] * y1) / l2[j + 2];
-    x[j]            = y0;
-    x[j + 1]        = y1;
-    x[j + 2]        = y2;
+    double y[dim];
+    for (int c = 0; c < dim; ++c)
+    {
+      y[c] = x[j + c];
+      for (int k = 0; k < c; ++k)
+        y[c] -= panel[k * size + j + c] * y[k];
+      x[j + c] = y[c] /= panel[c * size + j + c];
+    }
 #pragma GCC ivdep
-    for (int r = j + 3; r < size; ++r)
-      x[r] -= l0[r] * y0 + l1[r] * y1 + l2[r] * y2;
+    for (int r = j + dim; r < size; ++r)
+    {
+      double sum = panel[r] * y[0];
+#pragma GCC unroll 2
+      for (int c = 1; c < dim; ++c)
+        sum += panel[c * size + r] * y[c];
+      x[r] -= sum;
+    }
   }
 }
 
+template <int dim>
 void substitute_back(const double *panel, const int width, const int size, double *const x)
 {
-  for (int j = width - 3; j >= 0; j -= 3)
+  for (int j = width - dim; j >= 0; j -= dim)
   {
-    const double *const l0 = panel + j * size, *const l1 = l0 + size, *const l2 = l1 + size;
-    Lanes s0 = {}, s1 = {}, s2 = {};
-    int r = j + 3;
+    const double *const l = panel + j * size;
+    Lanes sums[dim]       = {};
+    int r                 = j + dim;
     for (; r + lanes <= size; r += lanes)
     {
       const Lanes y = loaded(x + r);
-      s0 += y * loaded(l0 + r);
-      s1 += y * loaded(l1 + r);
-      s2 += y * loaded(l2 + r);
+#pragma GCC unroll 3
+      for (int c = 0; c < dim; ++c)
+        sums[c] += y * loaded(l + c * size + r);
     }
-    double t0 = sum_of(s0), t1 = sum_of(s1), t2 = sum_of(s2);
+    double rest[dim];
+    for (int c = 0; c < dim; ++c)
+      rest[c] = sum_of(sums[c]);
     for (; r < size; ++r)
+      for (int c = 0; c < dim; ++c)
+        rest[c] += l[c * size + r] * x[r];
+    for (int c = dim - 1; c >= 0; --c)
     {
-      t0 += l0[r] * x[r];
-      t1 += l1[r] * x[r];
-      t2 += l2[r] * x[r];
+      double left = x[j + c] - rest[c];
+      for (int k = c + 1; k < dim; ++k)
+        left -= l[c * size + j + k] * x[j + k];
+      x[j + c] = left / l[c * size + j + c];
     }
-    x[j + 2] = (x[j + 2] - t2) / l2[j + 2];
-    x[j + 1] = (x[j + 1] - t1 - l1[j + 2] * x[j + 2]) / l1[j + 1];
-    x[j]     = (x[j] - t0 - l0[j + 1] * x[j + 1] - l0[j + 2] * x[j + 2]) / l0[j];
   }
 }
+
+template void multiply<2>(const double *, const double *, int, int, int, double *);
+template void multiply<3>(const double *, const double *, int, int, int, double *);
+template bool factorize_panel<2>(double *, int, int, double *);
+template bool factorize_panel<3>(double *, int, int, double *);
+template void substitute<2>(const double *, int, int, double *);
+template void substitute<3>(const double *, int, int, double *);
+template void substitute_back<2>(const double *, int, int, double *);
+template void substitute_back<3>(const double *, int, int, double *);
 } // namespace homespun::shell

@@ -16,13 +16,6 @@ std::vector<std::array<int, 2>> couplings_of(const PlaneMatrix::Elements &elemen
         pairs.push_back({elements(e, a), elements(e, b)});
   return pairs;
 }
-
-Vectors in_space(const PlaneMatrix::Rows &rows)
-{
-  Vectors result       = Vectors::Zero(rows.rows(), 3);
-  result.leftCols<2>() = rows;
-  return result;
-}
 } // namespace
 
 PlaneMatrix::PlaneMatrix(const Elements &elements, const std::vector<bool> &is_held)
@@ -40,8 +33,6 @@ PlaneMatrix::PlaneMatrix(const Elements &elements, const std::vector<bool> &is_h
 void PlaneMatrix::clear()
 {
   matrix.clear();
-  for (int c = 0; c < matrix.n_free(); ++c)
-    matrix.blocks[index(matrix.first[index(c)])](2, 2) = 1.;
   shifted = 0.;
 }
 
@@ -55,23 +46,23 @@ bool PlaneMatrix::factorize(const double shift)
 
 PlaneMatrix::Rows PlaneMatrix::solve(const Rows &right_side) const
 {
-  Vectors result;
-  cholesky.solve(in_space(right_side), result);
-  return result.leftCols<2>();
+  Rows result;
+  cholesky.solve(right_side, result);
+  return result;
 }
 
 PlaneMatrix::Rows PlaneMatrix::multiply(const Rows &rows) const
 {
-  Vectors result;
-  matrix.multiply(in_space(rows), result);
-  return result.leftCols<2>();
+  Rows result;
+  matrix.multiply(rows, result);
+  return result;
 }
 
 double PlaneMatrix::mean_diagonal() const
 {
   double sum = 0.;
   for (int c = 0; c < matrix.n_free(); ++c)
-    sum += matrix.blocks[index(matrix.first[index(c)])].topLeftCorner<2, 2>().trace();
+    sum += matrix.blocks[index(matrix.first[index(c)])].trace();
   return matrix.n_free() > 0 ? sum / (2 * matrix.n_free()) : 0.;
 }
 } // namespace homespun::shell

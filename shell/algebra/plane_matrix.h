@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A symmetric sparse matrix over the free vertices of a sheet in its plane, and its factorisation:
-// the linear algebra under a static solve. It is the matrix of a moving cloth, block_matrix.h, with
-// a one for the third component of each vertex: order, panels and the kernels whose rows stay in
-// registers serve here too, and take less time over three numbers than a factorisation entry by
-// entry over two.
+// the linear algebra under a static solve.
 #pragma once
 
 #include "shell/algebra/block_cholesky.h"
@@ -19,7 +16,7 @@ class PlaneMatrix
 public:
   /// The vertices of each element (m,k).
   using Elements = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using Rows     = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  using Rows     = VectorsOf<2>;
 
   /// Orders the free vertices and factors symbolically.
   /// @param elements whose vertices are coupled with each other
@@ -34,14 +31,10 @@ public:
   template <typename Values>
   void add(const int element, const Eigen::MatrixBase<Values> &values)
   {
-    auto place               = places.begin() + element * n_pairs();
-    BlockMatrix::Block block = BlockMatrix::Block::Zero();
+    auto place = places.begin() + element * n_pairs();
     for (int a = 0; a < n_vertices; ++a)
       for (int b = a; b < n_vertices; ++b)
-      {
-        block.topLeftCorner<2, 2>() = values.template block<2, 2>(2 * a, 2 * b);
-        matrix.add(*place++, block);
-      }
+        matrix.add(*place++, values.template block<2, 2>(2 * a, 2 * b));
   }
 
   /// Factors matrix + shift * I. @return whether it is positive definite to working precision
@@ -64,9 +57,9 @@ private:
   }
 
   int n_vertices; ///< of an element
-  BlockMatrix matrix;
-  BlockCholesky cholesky;
-  std::vector<BlockMatrix::Slot> places; ///< of the pairs of each element
-  double shifted = 0.;                   ///< what is on the diagonal by now
+  BlockMatrixOf<2> matrix;
+  BlockCholeskyOf<2> cholesky;
+  std::vector<BlockMatrixOf<2>::Slot> places; ///< of the pairs of each element
+  double shifted = 0.;                        ///< what is on the diagonal by now
 };
 } // namespace homespun::shell

@@ -35,7 +35,14 @@ struct Padded
 };
 
 /// Sizes around whole registers, and beyond those that Eigen takes over.
-const std::vector<int> sizes = {3, 6, 9, 15, 24, 27, 48, 51, 72, 75, 150};
+template <int dim>
+std::vector<int> sizes()
+{
+  std::vector<int> all;
+  for (const int n_blocks : {1, 2, 3, 5, 8, 9, 16, 17, 24, 25, 50, 75})
+    all.push_back(dim * n_blocks);
+  return all;
+}
 
 /// (size,width): the leading columns of a positive definite matrix.
 Eigen::MatrixXd panel(const int size, const int width)
@@ -45,39 +52,39 @@ Eigen::MatrixXd panel(const int size, const int width)
   return (random * random.transpose() + size * Eigen::MatrixXd::Identity(size, size))
     .leftCols(width);
 }
-} // namespace
-
-TEST(exact_dense_panel, a_product_is_that_of_its_rows)
+template <int dim>
+void check_products()
 {
-  for (const int size : sizes)
-    for (const int depth : {3, 12, 30})
-      for (int offset = 0; offset < size; offset += 3)
+  for (const int size : sizes<dim>())
+    for (const int depth : {dim, 4 * dim, 10 * dim})
+      for (int offset = 0; offset < size; offset += dim)
       {
         const int n = size - offset;
         Padded a(panel(size, std::min(depth, size)));
-        std::vector<double> t(3 * static_cast<std::size_t>(padded(n)));
-        multiply(a.numbers.data() + offset, a.numbers.data(), size, static_cast<int>(a.columns), n,
-                 t.data());
+        std::vector<double> t(dim * static_cast<std::size_t>(padded(n)));
+        multiply<dim>(a.numbers.data() + offset, a.numbers.data(), size,
+                      static_cast<int>(a.columns), n, t.data());
         const Eigen::MatrixXd expected =
-          a.matrix().bottomRows(n) * a.matrix().topRows(3).transpose();
-        const Eigen::Map<Eigen::MatrixXd> found(t.data(), padded(n), 3);
+          a.matrix().bottomRows(n) * a.matrix().topRows(dim).transpose();
+        const Eigen::Map<Eigen::MatrixXd> found(t.data(), padded(n), dim);
         EXPECT_LT((found.topRows(n) - expected).cwiseAbs().maxCoeff(),
                   1e-13 * expected.cwiseAbs().maxCoeff())
           << size << " " << depth << " " << offset;
       }
 }
 
-TEST(exact_dense_panel, factor_and_substitutions_are_those_of_a_dense_matrix)
+template <int dim>
+void check_factors()
 {
-  for (const int size : sizes)
-    for (const int width : sizes)
+  for (const int size : sizes<dim>())
+    for (const int width : sizes<dim>())
     {
       if (width > size)
         continue;
       const Eigen::MatrixXd A = panel(size, width);
       Padded factor(A);
-      std::vector<double> product(3 * static_cast<std::size_t>(padded(size)));
-      ASSERT_TRUE(factorize_panel(factor.numbers.data(), width, size, product.data()));
+      std::vector<double> product(dim * static_cast<std::size_t>(padded(size)));
+      ASSERT_TRUE(factorize_panel<dim>(factor.numbers.data(), width, size, product.data()));
       Eigen::MatrixXd L = factor.matrix();
       L.topRows(width).triangularView<Eigen::StrictlyUpper>().setZero();
       const double scale = A.cwiseAbs().maxCoeff();
@@ -92,15 +99,28 @@ TEST(exact_dense_panel, factor_and_substitutions_are_those_of_a_dense_matrix)
       const Eigen::VectorXd x   = Eigen::VectorXd::LinSpaced(size, -1., 2.);
       const Eigen::VectorXd top = x.head(width), below = x.tail(size - width);
       Eigen::VectorXd y = x;
-      substitute(factor.numbers.data(), width, size, y.data());
+      substitute<dim>(factor.numbers.data(), width, size, y.data());
       EXPECT_LT((L.topRows(width) * y.head(width) - top).norm(), 1e-13 * x.norm() * scale);
       EXPECT_LT((y.tail(size - width) - below + L.bottomRows(size - width) * y.head(width)).norm(),
                 1e-13 * x.norm() * scale);
       y = x;
-      substitute_back(factor.numbers.data(), width, size, y.data());
+      substitute_back<dim>(factor.numbers.data(), width, size, y.data());
       EXPECT_LT((L.transpose() * y - top).norm(), 1e-13 * x.norm() * scale);
       EXPECT_EQ(y.tail(size - width), below);
     }
+}
+} // namespace
+
+TEST(exact_dense_panel, a_product_is_that_of_its_rows)
+{
+  check_products<2>();
+  check_products<3>();
+}
+
+TEST(exact_dense_panel, factor_and_substitutions_are_those_of_a_dense_matrix)
+{
+  check_factors<2>();
+  check_factors<3>();
 }
 
 TEST(exact_dense_panel, a_pivot_that_is_not_positive_is_told)
@@ -111,6 +131,8 @@ TEST(exact_dense_panel, a_pivot_that_is_not_positive_is_told)
       Padded matrix(Eigen::MatrixXd::Identity(15, 12));
       matrix.matrix()(place, place) = value;
       std::vector<double> product(3 * static_cast<std::size_t>(padded(15)));
-      EXPECT_FALSE(factorize_panel(matrix.numbers.data(), 12, 15, product.data())) << place;
+      Padded other = matrix;
+      EXPECT_FALSE(factorize_panel<3>(matrix.numbers.data(), 12, 15, product.data())) << place;
+      EXPECT_FALSE(factorize_panel<2>(other.numbers.data(), 12, 15, product.data())) << place;
     }
 }
