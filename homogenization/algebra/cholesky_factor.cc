@@ -50,7 +50,9 @@ public:
 
   void remember(const Pattern &pattern, std::vector<int> order)
   {
-    constexpr std::size_t most = 4; // displacements and Airy's function, with one side to spare
+    // Of a study: displacements P1, P2 and P2 refined on a small and a large sheet under each way
+    // of holding it, of the cell, and Airy's function.
+    constexpr std::size_t most = 16;
     const std::lock_guard guard(mutex);
     last.emplace_back(pattern, std::move(order));
     if (last.size() > most)
@@ -74,11 +76,11 @@ class CholeskyFactor::Decomposition
 {
 public:
   explicit Decomposition(const Matrix &lower_triangle)
+      : pattern(pattern_of(lower_triangle))
   {
     m_cholmod.print        = 0;
     m_cholmod.final_asis   = 1;
     m_cholmod.supernodal   = CHOLMOD_SUPERNODAL;
-    const Pattern pattern  = pattern_of(lower_triangle);
     std::vector<int> order = orders().order_of(pattern);
     const bool is_known    = !order.empty();
     m_cholmod.postorder    = !is_known; // which is remembered after it
@@ -97,7 +99,14 @@ public:
     orders().remember(pattern, {found, found + m_cholmodFactor->n});
   }
 
+  /// Whether a matrix has the same places of entries.
+  bool is_of(const Matrix &lower_triangle) const
+  {
+    return pattern == pattern_of(lower_triangle);
+  }
+
 private:
+  const Pattern pattern;
   /// From which size on nodes are ordered in the place of unknowns; CHOLMOD itself is as fast
   /// below.
   static constexpr Eigen::Index least_dissected = 20000;
@@ -115,8 +124,14 @@ private:
 };
 
 CholeskyFactor::CholeskyFactor(Matrix lower_triangle, const std::string &what)
-    : scale(lower_triangle.diagonal())
+    : what(what)
 {
+  factorize(std::move(lower_triangle));
+}
+
+void CholeskyFactor::factorize(Matrix lower_triangle)
+{
+  scale = lower_triangle.diagonal();
   for (double &entry : scale)
   {
     if (!(entry > 0.) || !std::isfinite(entry))
@@ -128,7 +143,8 @@ CholeskyFactor::CholeskyFactor(Matrix lower_triangle, const std::string &what)
       entry.valueRef() *= scale(entry.row()) * scale(column);
 
   lower_triangle.makeCompressed();
-  decomposition = std::make_unique<Decomposition>(lower_triangle);
+  if (!decomposition || !decomposition->is_of(lower_triangle))
+    decomposition = std::make_unique<Decomposition>(lower_triangle);
   // Near contrast 1e9 round-off can make the last pivots negative. A small shift then gives a
   // preconditioner, and conjugate gradients take the shift out again.
   for (const double shift : {0., 1e-14, 1e-12})

@@ -25,11 +25,16 @@ public:
   CholeskyFactor(Eigen::SparseMatrix<double> lower_triangle, const std::string &what);
   ~CholeskyFactor();
 
+  /// Of another matrix, in the same room where its entries are at the same places.
+  /// @throws NotConverged as above; there is no factor then
+  void factorize(Eigen::SparseMatrix<double> lower_triangle);
+
   /// A^-1 of several right-hand sides (n, loads), for which the factor is read once.
   Eigen::MatrixXd solve(const Eigen::MatrixXd &right_hand_sides) const;
 
 private:
   class Decomposition;
+  const std::string what;
   Eigen::VectorXd scale; ///< 1 / sqrt(diagonal)
   std::unique_ptr<Decomposition> decomposition;
 };

@@ -221,8 +221,15 @@ Eigen::SparseMatrix<double> ElasticSolver::lower_triangle() const
 
 void ElasticSolver::factorize()
 {
-  preconditioner.reset(); // what takes memory goes first
-  auto made = std::make_unique<Preconditioner>();
+  auto made = std::exchange(preconditioner, nullptr);
+  if (made && made->factor) // whose order and room serve again
+  {
+    made->factor->factorize(lower_triangle());
+    preconditioner = std::move(made);
+    return;
+  }
+  made.reset(); // what takes memory goes first
+  made = std::make_unique<Preconditioner>();
   if (n_ranks() == 1)
     made->factor = std::make_unique<CholeskyFactor>(lower_triangle(), "cell problems");
   else

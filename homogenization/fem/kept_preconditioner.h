@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Conjugate gradients with the preconditioner of an earlier matrix, as long as that serves: a
 // Cholesky factor on one rank where ElasticSolver::is_small(), else a multigrid hierarchy; where
-// conjugate gradients with that fail, a factor takes over, and a new factor where those with an old
-// one have cost as much as it does.
+// conjugate gradients with that fail, a factor takes over. A factor is made anew where that lowers
+// the mean cost of a solve.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
@@ -26,7 +26,8 @@ public:
 
 private:
   bool is_old = false, is_factor = false;
-  bool is_fresh                        = false; ///< no solve has used it
+  bool is_fresh         = false;               ///< no solve has used it
+  unsigned int n_solves = 0, n_iterations = 0; ///< with it, and what its making cost
   double iterations_per_digit_when_new = 0.;
 };
 } // namespace homespun::homogenization

@@ -42,6 +42,14 @@ TEST(exact_cholesky_factor, a_remembered_order_gives_the_same_factor_of_other_va
   const Eigen::MatrixXd of_other      = CholeskyFactor(five_points(n, 0.5), "other").solve(loads);
   const Eigen::MatrixXd of_remembered = CholeskyFactor(one, "one").solve(loads);
   EXPECT_EQ((of_remembered - first).norm(), 0.);
+  CholeskyFactor in_its_room(five_points(n, 0.5), "in its room");
+  in_its_room.factorize(one);
+  EXPECT_EQ((in_its_room.solve(loads) - first).norm(), 0.);
+  EXPECT_THROW(in_its_room.factorize(-1. * one), meshes::NotConverged);
+  in_its_room.factorize(one);
+  EXPECT_EQ((in_its_room.solve(loads) - first).norm(), 0.);
+  in_its_room.factorize(five_points(n / 2, 0.));
+  EXPECT_EQ(in_its_room.solve(loads.topRows(n * n / 4)).rows(), n * n / 4);
   const Eigen::SparseMatrix<double> full =
     Eigen::SparseMatrix<double>(five_points(n, 0.5).selfadjointView<Eigen::Lower>());
   EXPECT_LT((full * of_other - loads).norm(), 1e-12 * loads.norm()); // condition below 1e4
