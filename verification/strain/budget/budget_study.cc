@@ -8,7 +8,6 @@
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
-#include "verification/strain/budget/second_code.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +50,7 @@ void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
   cells.best  = homogenized(2, homogenization::HomogenizationOptions().tolerance);
   cells.tight = homogenized(1, 1e-13);
   of_load.reset();
+  second.reset();
   load_name.clear();
   cell = &new_cell;
   on_root(communicator,
@@ -81,10 +81,10 @@ void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
           [&]()
           {
             regions = regions_of(sheet, load.is_periodic());
-            of_load = std::make_unique<LoadBudget>(
-              cells, sheet, load,
-              second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, strain),
-              strain, budget_refinement(sheet));
+            second =
+              std::make_unique<SecondSheet>(cells.given, cells.stiffness_of_phase, sheet, load);
+            of_load = std::make_unique<LoadBudget>(cells, sheet, load, second->linear(strain),
+                                                   strain, budget_refinement(sheet));
           });
   load_name   = load.name;
   is_periodic = load.is_periodic();
@@ -146,13 +146,7 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
   std::optional<meshes::Points> positions;
   try
   {
-    const Load load(load_name);
-    if (law == Law::linear)
-      positions =
-        second_linear_sheet(cells.given, cells.stiffness_of_phase, references->sheet, load, strain);
-    else
-      positions = second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase,
-                                         references->sheet, load, strain);
+    positions = law == Law::linear ? second->linear(strain) : second->nonlinear(law, strain);
     row.distance =
       (tight - *positions).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
   }

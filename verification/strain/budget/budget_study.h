@@ -6,6 +6,7 @@
 #include "verification/reference/sheet_references.h"
 #include "verification/strain/budget/budget_rows.h"
 #include "verification/strain/budget/error_budget.h"
+#include "verification/strain/budget/second_code.h"
 #include "verification/strain/strain_output.h"
 
 #include <mpi.h>
@@ -67,6 +68,7 @@ private:
   const homogenization::UnitCell *cell = nullptr;
   BudgetCells cells;
   std::unique_ptr<LoadBudget> of_load;   ///< first rank
+  std::unique_ptr<SecondSheet> second;   ///< first rank
   SheetReferences *references = nullptr; ///< every rank
   std::vector<int> regions;
   std::string load_name;

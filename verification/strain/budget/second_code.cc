@@ -4,7 +4,6 @@
 #include "homogenization/bracket/compatible_strain.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "meshes/plain/triangle_kinematics.h"
-#include "shell/solver/equilibrium.h"
 #include "verification/periodic_cell/nonlinear_cell.h"
 
 #include <algorithm>
@@ -31,17 +30,6 @@ meshes::TriangleMesh second_mesh(const meshes::HomogenizedCell &cell, const mesh
   meshes::TriangleMesh mesh = sheet.mesh;
   mesh.material             = phases_of_sheet(cell, sheet);
   return mesh;
-}
-
-/// A sheet under a law of the moving cloth.
-shell::MembraneSolver<> second_solver(const Law law, const meshes::HomogenizedCell &cell,
-                                      const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                      const meshes::Sheet &sheet, const Load &load)
-{
-  shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
-  if (is_of_yarns(law))
-    shell::take_yarn_law(membrane);
-  return {std::move(membrane), held_vertices(load, sheet, sheet.mesh.vertices)};
 }
 
 /// An infinite cloth: the affine motion, and a fluctuation of each vertex of the cell.
@@ -107,26 +95,45 @@ Eigen::VectorXi phases_of_sheet(const meshes::HomogenizedCell &cell, const meshe
   return phases;
 }
 
-meshes::Points second_linear_sheet(const meshes::HomogenizedCell &cell,
-                                   const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                   const meshes::Sheet &sheet, const Load &load,
-                                   const double strain)
+SecondSheet::SecondSheet(const meshes::HomogenizedCell &cell,
+                         std::vector<Eigen::Matrix3d> stiffness_of_phase,
+                         const meshes::Sheet &sheet, const Load &load)
+    : cell(cell)
+    , stiffness_of_phase(std::move(stiffness_of_phase))
+    , sheet(sheet)
+    , load(load)
 {
-  if (load.is_periodic())
+}
+
+const shell::MembraneSolver<> &SecondSheet::solver_under(const Law law) const
+{
+  std::unique_ptr<shell::MembraneSolver<>> &solver = solvers[is_of_yarns(law) ? 1 : 0];
+  if (!solver)
   {
-    const homogenization::TorusMesh torus = homogenization::glued(cell.mesh, cell.lattice);
-    const meshes::Chi chi =
-      homogenization::CompatibleStrain(torus, stiffness_of_phase, 1).chi_at_given_vertices();
-    const Eigen::Matrix2d gradient = load.gradient(strain);
-    const Eigen::Vector3d e(gradient(0, 0) - 1., gradient(1, 1) - 1.,
-                            gradient(0, 1) + gradient(1, 0));
-    meshes::Points fluctuation = meshes::Points::Zero(chi.rows(), 2);
-    for (int a = 0; a < 3; ++a)
-      fluctuation -= e(a) * chi.middleCols<2>(2 * a);
-    return infinite_cloth(sheet, gradient, Eigen::Matrix2d::Identity(), fluctuation, cell.anchor);
+    shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
+    if (is_of_yarns(law))
+      shell::take_yarn_law(membrane);
+    solver = std::make_unique<shell::MembraneSolver<>>(
+      std::move(membrane), held_vertices(load, sheet, sheet.mesh.vertices));
   }
-  return second_solver(Law::linear, cell, stiffness_of_phase, sheet, load)
-    .solve_linear(moved_affinely(load, sheet, sheet.mesh.vertices, strain));
+  return *solver;
+}
+
+meshes::Points SecondSheet::linear(const double strain) const
+{
+  if (!load.is_periodic())
+    return solver_under(Law::linear)
+      .solve_linear(moved_affinely(load, sheet, sheet.mesh.vertices, strain));
+  const homogenization::TorusMesh torus = homogenization::glued(cell.mesh, cell.lattice);
+  const meshes::Chi chi =
+    homogenization::CompatibleStrain(torus, stiffness_of_phase, 1).chi_at_given_vertices();
+  const Eigen::Matrix2d gradient = load.gradient(strain);
+  const Eigen::Vector3d e(gradient(0, 0) - 1., gradient(1, 1) - 1.,
+                          gradient(0, 1) + gradient(1, 0));
+  meshes::Points fluctuation = meshes::Points::Zero(chi.rows(), 2);
+  for (int a = 0; a < 3; ++a)
+    fluctuation -= e(a) * chi.middleCols<2>(2 * a);
+  return infinite_cloth(sheet, gradient, Eigen::Matrix2d::Identity(), fluctuation, cell.anchor);
 }
 
 bool second_code_has(const Law law)
@@ -134,10 +141,7 @@ bool second_code_has(const Law law)
   return law == Law::linear || law == Law::biot || is_of_yarns(law);
 }
 
-meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCell &cell,
-                                      const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                      const meshes::Sheet &sheet, const Load &load,
-                                      const double strain)
+meshes::Points SecondSheet::nonlinear(const Law law, const double strain) const
 {
   if (load.is_periodic())
   {
@@ -147,7 +151,7 @@ meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCe
                               .solve({U(0, 0) - 1., U(1, 1) - 1., U(0, 1) + U(1, 0)});
     return infinite_cloth(sheet, F, R, state.fluctuation, cell.anchor);
   }
-  const shell::MembraneSolver solver = second_solver(law, cell, stiffness_of_phase, sheet, load);
+  const shell::MembraneSolver<> &solver = solver_under(law);
   shell::EquilibriumOptions tight;
   tight.relative_tolerance   = 1e-13; // round-off counts as zero before
   const meshes::Points moved = moved_affinely(load, sheet, sheet.mesh.vertices, strain);

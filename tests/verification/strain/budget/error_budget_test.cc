@@ -68,13 +68,13 @@ ErrorBudget measured(const UnitCell &cell, const BudgetCells &cells, const Load 
   const CoarseState coarse       = model.solve(strain);
   const meshes::Points upsampled = model.upsample(coarse);
   LoadBudget budget(cells, sheet, load,
-                    second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, 0.01),
+                    SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load).linear(0.01),
                     0.01, refinement);
   const meshes::Points second =
     law == Law::linear
-      ? second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, strain)
-      : second_nonlinear_sheet(Law::biot, cells.given, cells.stiffness_of_phase, sheet, load,
-                               strain);
+      ? SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load).linear(strain)
+      : SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load)
+          .nonlinear(Law::biot, strain);
   return budget.measure(law, {strain, coarse.positions, upsampled, fine, &tight, nullptr, &second});
 }
 
@@ -255,15 +255,15 @@ TEST(exact_second_code, both_codes_find_one_sheet_in_linear_theory_and_at_finite
       const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
       const double unit         = 0.01 * std::sqrt(cell.lattice.area());
       EXPECT_LT(mean(linear_reference(cell, sheet, load, 1) -
-                     second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, 0.01)),
+                     SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load).linear(0.01)),
                 1e-7 * unit)
         << name << load_name;
       FineReference reference(sheet, cell.stiffness_of_phase(), {}, MPI_COMM_WORLD);
       reference.start(load, Law::biot);
       reference.advance(0.01);
       const meshes::Points fine = reference.tighten(1e-11).positions;
-      EXPECT_LT(mean(fine - second_nonlinear_sheet(Law::biot, cells.given, cells.stiffness_of_phase,
-                                                   sheet, load, 0.01)),
+      EXPECT_LT(mean(fine - SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load)
+                              .nonlinear(Law::biot, 0.01)),
                 1e-7 * unit)
         << name << load_name;
     }
@@ -298,7 +298,7 @@ TEST(exact_second_code, both_codes_find_one_sheet_of_yarns_which_is_not_the_coro
       EXPECT_TRUE(reference.advance(strain).reached);
       return mean(
         reference.tighten(1e-11).positions -
-        second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase, sheet, load, strain));
+        SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load).nonlinear(law, strain));
     };
     EXPECT_LT(distance_to_law(Law::yarn), 1e-7 * unit) << name;
     EXPECT_GT(distance_to_law(Law::biot), 100. * agreement * unit) << name;
@@ -314,7 +314,7 @@ TEST(tripwire_second_code, exchanged_phases_and_a_p2_cell_that_was_never_compute
   UnitCell exchanged        = cell; // what the reference would read, were its phases exchanged
   std::swap(exchanged.phases[0], exchanged.phases[1]);
   EXPECT_GT(mean(linear_reference(exchanged, sheet, load, 1) -
-                 second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, 0.01)),
+                 SecondSheet(cells.given, cells.stiffness_of_phase, sheet, load).linear(0.01)),
             1e-3 * 0.01 * std::sqrt(cell.lattice.area()));
   EXPECT_GT(
     (cells.given.stiffness - second_p2_stiffness(cells.given, cells.stiffness_of_phase)).norm(),
