@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 
 namespace homespun::homogenization
 {
@@ -274,11 +275,13 @@ std::vector<double> exponents_of(const Corner &corner)
 
 Singularity singularity_of(const std::vector<Corner> &corners)
 {
+  static std::mutex one_at_a_time;
+  static std::map<std::vector<long>, std::vector<double>> known;
+  const std::lock_guard guard(one_at_a_time);
   Singularity result;
-  std::map<std::vector<long>, bool> is_known;
   for (const Corner &corner : corners)
   {
-    std::vector<long> key;
+    std::vector<long> key = {corner.is_closed, static_cast<long>(corner.clamped)};
     for (const Sector &sector : corner.sectors)
     {
       for (const double angle : {sector.begin, sector.end})
@@ -286,9 +289,9 @@ Singularity singularity_of(const std::vector<Corner> &corners)
       for (const double entry : sector.stiffness.reshaped())
         key.push_back(std::lround(1e9 * entry / corner.sectors[0].stiffness.cwiseAbs().maxCoeff()));
     }
-    if (!is_known.emplace(key, true).second)
-      continue;
-    for (const double exponent : exponents_of(corner))
+    if (known.count(key) == 0)
+      known[key] = exponents_of(corner);
+    for (const double exponent : known[key])
       if (exponent < 1.)
       {
         result.exists    = true;

@@ -67,6 +67,6 @@ struct Singularity
   double next = 2.;                    ///< 2 where there is none below
 };
 
-/// Corners that are alike are solved once.
+/// Corners that are alike are solved once in a program: of a cell with many they take seconds.
 Singularity singularity_of(const std::vector<Corner> &corners);
 } // namespace homespun::homogenization

@@ -78,14 +78,19 @@ ReferenceUncertainty::measure(const Measurement &what) const
     ladder.push_back(&what.of.by(2, 1));
   std::vector<std::vector<meshes::Points>> positions(what.strains.size());
   std::vector<std::vector<double>> forces(what.strains.size());
+  std::size_t n_reached = what.strains.size(); // by all so far: beyond it nothing can be compared
   for (FineReference *const reference : ladder)
   {
-    reference->start(load, what.law);
-    for (std::size_t k = 0; k < what.strains.size(); ++k)
+    if (n_reached > 0)
+      reference->start(load, what.law);
+    for (std::size_t k = 0; k < n_reached; ++k)
     {
       const ReferenceStep step = reference->advance(what.strains[k]);
       if (!step.reached)
+      {
+        n_reached = k;
         break;
+      }
       positions[k].push_back(step.positions);
       forces[k].push_back(force_per_width(load, what.of.sheet.sides(), step.forces));
     }

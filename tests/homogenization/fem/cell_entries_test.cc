@@ -60,7 +60,7 @@ struct HeldSheet
   using Stiffness = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
   using AtNodes   = Eigen::Matrix<double, n_nodes, n_components, Eigen::RowMajor>;
 
-  const Discretization discretization{tests::parallelogram(tests::skewed_lattice(), 6, 5), order,
+  const Discretization discretization{tests::parallelogram(tests::skewed_lattice(), 16, 12), order,
                                       MPI_COMM_WORLD, n_components};
   dealii::AffineConstraints<double> constraints;
   std::unique_ptr<ElasticSolver> solver;
