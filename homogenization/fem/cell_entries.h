@@ -17,8 +17,8 @@ namespace homespun::homogenization
 /// and Trilinos where these stand, takes longer than the integrals of the cell.
 ///
 /// Sums of cells with a DoF that is constrained, or that another rank owns, go the way of all of
-/// deal.II, by AffineConstraints::distribute_local_to_global. The others are added in place, in the
-/// same order, so that the sums are the same to the last bit.
+/// deal.II, by AffineConstraints::distribute_local_to_global. The others are added in place: on one
+/// rank in the same order, so that the sums are the same to the last bit, on several to round-off.
 class CellEntries
 {
 public:

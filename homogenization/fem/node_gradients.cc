@@ -3,8 +3,6 @@
 
 #include "meshes/plain/triangle_kinematics.h"
 
-#include <Eigen/LU>
-
 namespace homespun::homogenization
 {
 using namespace dealii;
@@ -24,9 +22,10 @@ NodeGradients::NodeGradients(const Discretization &discretization, const Quadrat
 
 void NodeGradients::reinit(const int triangle)
 {
-  const Eigen::Matrix2d jacobian =
-    meshes::sides_of_triangle<2>(mesh.triangles.row(triangle), mesh.vertices);
-  inverse_jacobian = jacobian.inverse();
-  area_of_triangle = 0.5 * jacobian.determinant();
+  const meshes::TriangleGeometry geometry = meshes::triangle_geometry(
+    meshes::sides_of_triangle<2>(mesh.triangles.row(triangle), mesh.vertices));
+  inverse_jacobian =
+    geometry.shape_gradients.bottomRows<2>(); // of the coordinates on the reference
+  area_of_triangle = geometry.area;
 }
 } // namespace homespun::homogenization

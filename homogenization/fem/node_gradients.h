@@ -13,7 +13,7 @@ namespace homespun::homogenization
 /// Gradients of the shapes of one component, which all share: shape k is that of node k. Those of
 /// deal.II on the reference triangle, mapped by the straight sides of a triangle of the mesh:
 ///   grad N = J^-T grad_ref N,    J = (x1 - x0, x2 - x0).
-/// FEValues gives the same to round-off, for any map and at some twenty times the time.
+/// FEValues gives the same to round-off, for any map.
 class NodeGradients
 {
 public:

@@ -168,47 +168,38 @@ ClothReference::Solver::evaluate(const Vector &positions, const Inertia &inertia
                             : assemble<6>(positions, inertia, residual, tangent, tension);
 }
 
-template <int n_shapes>
-double ClothReference::Solver::stored_energy_of_cells() const
+/// Sum over all cells of all ranks of what each gives from a field at its nodes.
+template <typename OfCell>
+double ClothReference::Solver::sum_over_cells(const Vector &field, const OfCell &of_cell) const
 {
-  const Vector everywhere = cells->with_ghosts(position);
+  const Vector everywhere = cells->with_ghosts(field);
   homogenization::NodeGradients gradients(discretization, discretization.nonlinear_quadrature);
-  double energy = 0.;
+  double sum = 0.;
   for (int cell = 0; cell < cells->n_cells(); ++cell)
   {
     gradients.reinit(cells->triangle(cell));
-    energy += integrate<n_shapes>(gradients, stiffness_of_phase[phase_of(cell)],
-                                  cells->values<n_shapes, 3>(everywhere, cell), Tangent::none, 0.)
-                .energy;
+    const std::size_t phase = phase_of(cell);
+    sum += options.order == 1 ? of_cell(gradients, phase, cells->values<3, 3>(everywhere, cell))
+                              : of_cell(gradients, phase, cells->values<6, 3>(everywhere, cell));
   }
-  return Utilities::MPI::sum(energy, discretization.communicator);
-}
-
-template <int n_shapes>
-double ClothReference::Solver::kinetic_energy_of_cells() const
-{
-  const Vector everywhere                                   = cells->with_ghosts(velocity);
-  const Eigen::Matrix<double, n_shapes, n_shapes> unit_mass = reference_mass;
-  homogenization::NodeGradients gradients(discretization, discretization.nonlinear_quadrature);
-  double energy = 0.;
-  for (int cell = 0; cell < cells->n_cells(); ++cell)
-  {
-    gradients.reinit(cells->triangle(cell));
-    const NodeVectors<n_shapes> v = cells->values<n_shapes, 3>(everywhere, cell);
-    energy += 0.5 * gradients.area() * areal_density_of_phase[phase_of(cell)] *
-              v.cwiseProduct(unit_mass * v).sum();
-  }
-  return Utilities::MPI::sum(energy, discretization.communicator);
+  return Utilities::MPI::sum(sum, discretization.communicator);
 }
 
 double ClothReference::Solver::stored_energy() const
 {
-  return options.order == 1 ? stored_energy_of_cells<3>() : stored_energy_of_cells<6>();
+  return sum_over_cells(
+    position, [&](const auto &gradients, const std::size_t phase, const auto &at)
+    { return integrate(gradients, stiffness_of_phase[phase], at, Tangent::none, 0.).energy; });
 }
 
 double ClothReference::Solver::kinetic_energy() const
 {
-  return options.order == 1 ? kinetic_energy_of_cells<3>() : kinetic_energy_of_cells<6>();
+  return sum_over_cells(velocity,
+                        [&](const auto &gradients, const std::size_t phase, const auto &at)
+                        {
+                          return 0.5 * gradients.area() * areal_density_of_phase[phase] *
+                                 at.cwiseProduct(reference_mass * at).sum();
+                        });
 }
 
 std::size_t ClothReference::Solver::phase_of(const int cell) const

@@ -71,10 +71,8 @@ private:
                       Tangent tangent, double tension);
   void minimize(Vector &positions, const Inertia &inertia, double tension, ClothStep &step);
   void advance(double dt, ClothStep &step);
-  template <int n_shapes>
-  double stored_energy_of_cells() const;
-  template <int n_shapes>
-  double kinetic_energy_of_cells() const;
+  template <typename OfCell>
+  double sum_over_cells(const Vector &field, const OfCell &of_cell) const;
   std::size_t phase_of(int cell) const;
   meshes::SpacePoints at_vertices(const Vector &values) const;
 

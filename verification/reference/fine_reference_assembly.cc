@@ -25,7 +25,6 @@ bool has_negative_eigenvalue(const Eigen::Matrix4d &tangent, const Eigen::Matrix
   const double round_off = 1e-12 * C.cwiseAbs().maxCoeff();
   return (tangent + round_off * Eigen::Matrix4d::Identity()).llt().info() != Eigen::Success;
 }
-
 } // namespace
 
 /// What one triangle adds to matrix and forces.

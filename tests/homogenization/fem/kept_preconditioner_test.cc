@@ -132,6 +132,27 @@ TEST(bound_kept_preconditioner, a_factor_of_a_distant_matrix_is_given_up_unless_
   }
 }
 
+// A factor that served many solves cheaply is made anew once a solve costs more than their mean,
+// its making included, and serves as long as each costs the same.
+TEST(exact_kept_preconditioner, a_factor_is_made_anew_where_that_lowers_the_mean_cost)
+{
+  for (const bool was_cheap : {true, false})
+  {
+    Held held;
+    held.assemble(0.);
+    for (int k = 0; k < (was_cheap ? 20 : 1); ++k)
+      EXPECT_LE(held.solve(), 2u);
+    held.assemble(-8.);
+    const unsigned int with_old = held.solve(), then = held.solve();
+    EXPECT_GT(with_old, 2u); // 20 cheap ones: x > (8 + 40 + x) / 21 from 3 on
+    EXPECT_LE(with_old, 9u); // one: x <= (8 + 1 + x) / 2
+    if (was_cheap)
+      EXPECT_LE(then, 2u);
+    else
+      EXPECT_EQ(then, with_old);
+  }
+}
+
 // With the factor of a definite matrix conjugate gradients tell the direction. One of its own has
 // none, and a hierarchy may not be definite either; the next call begins anew.
 TEST(exact_kept_preconditioner, an_indefinite_matrix_is_not_solved)
