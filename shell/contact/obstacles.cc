@@ -19,20 +19,20 @@ constexpr double default_stiffness = 1000.;
 constexpr double infinite          = std::numeric_limits<double>::infinity();
 
 /// {x: n·x >= offset}, in the frame of the body.
-struct Plane
+struct ContactPlane
 {
   Eigen::Vector3d normal;
   double offset = 0.;
 };
 
 /// What a way that begins outside and beyond the thickness runs into.
-std::optional<Plane> contact_ahead(const Shape &shape, const Eigen::Vector3d &from,
-                                   const Eigen::Vector3d &to, const double thickness)
+std::optional<ContactPlane> contact_ahead(const Shape &shape, const Eigen::Vector3d &from,
+                                          const Eigen::Vector3d &to, const double thickness)
 {
   if (const auto entry = shape.first_entry(from, to))
-    return Plane{entry->normal, entry->normal.dot(entry->point) + thickness};
+    return ContactPlane{entry->normal, entry->normal.dot(entry->point) + thickness};
   if (const auto near = shape.nearest(to, thickness))
-    return Plane{near->normal, near->normal.dot(to) - near->distance + thickness};
+    return ContactPlane{near->normal, near->normal.dot(to) - near->distance + thickness};
   return std::nullopt;
 }
 
@@ -183,7 +183,7 @@ private:
     }
   };
 
-  void add(const Approach &vertex, const Plane &plane, double stiffness, Sides sides,
+  void add(const Approach &vertex, const ContactPlane &plane, double stiffness, Sides sides,
            double drag = 0.);
   /// In an equilibrium, and of a vertex that is nearby and goes elsewhere.
   void keep_out(const Approach &vertex, const SurfacePoint &near);
@@ -244,7 +244,7 @@ void Contact::begin_step(const StepStart &start)
   }
 }
 
-void Contact::add(const Approach &vertex, const Plane &plane, const double stiffness,
+void Contact::add(const Approach &vertex, const ContactPlane &plane, const double stiffness,
                   const Sides sides, const double drag)
 {
   contacts.push_back({vertex.index, sides == Sides::one, stiffness, plane.normal,

@@ -11,7 +11,7 @@ namespace
 using Symmetric = Eigen::Vector3d;
 
 /// Below this determinant over tr² a stretch counts as that of a line: U is known to 1e-16.
-constexpr double collapsed_to_line = 1e-14;
+constexpr double collapsed_determinant = 1e-14;
 
 Eigen::Matrix2d matrix_of(const Symmetric &a)
 {
@@ -36,7 +36,7 @@ Eigen::Matrix3d inverse_anticommutator(const Symmetric &U)
     const Eigen::Matrix2d B      = matrix_of(Symmetric::Unit(k));
     const Eigen::Matrix2d across = adjugate * B * adjugate;
     Eigen::Matrix2d X;
-    if (det > collapsed_to_line * trace * trace)
+    if (det > collapsed_determinant * trace * trace)
       X = (B + across / det) / (2. * trace);
     else
     {

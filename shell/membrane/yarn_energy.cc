@@ -19,7 +19,7 @@ using meshes::YarnAxes;
 namespace
 {
 // Below this sine of the angle between them yarns count as lying along each other.
-constexpr double collapsed_to_line = 1e-14;
+constexpr double parallel_yarns = 1e-14;
 
 /// The yarns in their frames.
 template <int dim>
@@ -64,7 +64,7 @@ Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns)
   {
     const Eigen::Vector3d cross = t[0].cross(t[1]);
     frames.cosine               = cross.norm();
-    if (!(frames.cosine <= collapsed_to_line))
+    if (!(frames.cosine <= parallel_yarns))
       frames.normal = cross / frames.cosine;
     for (std::size_t i = 0; i < 2; ++i)
       frames.n[i] = frames.normal.cross(t[i]);

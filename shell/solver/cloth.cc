@@ -2,6 +2,7 @@
 #include "shell/solver/cloth.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/membrane/membrane.h"
 #include "shell/solver/rigid_motion.h"
 
 #include <algorithm>
@@ -15,16 +16,6 @@ namespace
 /// Round-off of energies that are large and cancel.
 constexpr double energy_slack = 1e-12;
 
-int first_not_finite(const Vectors &values)
-{
-  if (values.allFinite())
-    return -1;
-  int vertex = 0;
-  while (values.row(vertex).allFinite())
-    ++vertex;
-  return vertex;
-}
-
 /// The held vertices in ascending order, each once.
 /// @throws BadInput with one message per fault
 std::vector<int> checked(const Vectors &positions, const Eigen::VectorXd &masses,
@@ -34,7 +25,7 @@ std::vector<int> checked(const Vectors &positions, const Eigen::VectorXd &masses
     throw meshes::BadInput("cloth: " + std::to_string(masses.size()) + " masses for " +
                            std::to_string(positions.rows()) + " vertices; expected one each");
   std::vector<std::string> faults;
-  if (const int vertex = first_not_finite(positions); vertex >= 0)
+  if (const int vertex = first_not_finite<3>(positions); vertex >= 0)
     faults.push_back("vertex " + std::to_string(vertex) + ": its position is not finite");
   for (Eigen::Index i = 0; i < masses.size() && faults.size() < 4; ++i)
     if (!(masses(i) > 0.) || !std::isfinite(masses(i)))
@@ -102,7 +93,7 @@ void Cloth::set_state(const Vectors &positions, const Vectors &velocities, const
                            " velocities; expected " + std::to_string(x.rows()) + " of each");
   for (const auto &[what, values] :
        {std::pair("position", &positions), std::pair("velocity", &velocities)})
-    if (const int vertex = first_not_finite(*values); vertex >= 0)
+    if (const int vertex = first_not_finite<3>(*values); vertex >= 0)
       throw meshes::BadInput("cloth: a state whose vertex " + std::to_string(vertex) + " has a " +
                              what + " that is not finite");
   if (!std::isfinite(time))
@@ -116,7 +107,7 @@ void Cloth::set_state(const Vectors &positions, const Vectors &velocities, const
 
 void Cloth::check_finite(const Vectors &positions, const double h) const
 {
-  const int vertex = first_not_finite(positions);
+  const int vertex = first_not_finite<3>(positions);
   if (vertex < 0)
     return;
   std::ostringstream text;

@@ -111,4 +111,12 @@ inline double slope(const std::vector<double> &steps, const std::vector<double> 
   }
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
+
+/// C^H of the cell plain-weave-straight, rounded: E/G = 1113 [N/m].
+inline Eigen::Matrix3d plain_weave()
+{
+  Eigen::Matrix3d C;
+  C << 90150., 2034., 0., 2034., 90150., 0., 0., 0., 81.;
+  return C;
+}
 } // namespace homespun::tests

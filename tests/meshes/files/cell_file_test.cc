@@ -2,6 +2,7 @@
 #include "meshes/files/cell_file.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/plain/errors.h"
+#include "tests/meshes/files/temporary.h"
 #include "tests/meshes/plain/plain_cell.h"
 
 #include <gtest/gtest.h>
@@ -51,11 +52,6 @@ HomogenizedCell second_order_cell()
   return cell;
 }
 
-std::string temporary(const std::string &name)
-{
-  return (std::filesystem::temp_directory_path() / ("homespun-" + name)).string();
-}
-
 /// The text of the refusal, empty where the file was read.
 std::string refusal(const std::string &file)
 {
@@ -74,7 +70,7 @@ std::string refusal(const std::string &file)
 TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
 {
   const HomogenizedCell cell = some_cell();
-  const std::string file     = temporary("round-trip.h5");
+  const std::string file     = tests::temporary("round-trip.h5");
   write_cell(cell, file);
   const HomogenizedCell back = read_cell(file);
   EXPECT_EQ(back.mesh.vertices, cell.mesh.vertices);
@@ -95,7 +91,7 @@ TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
 TEST(exact_cell_file, modes_stand_in_the_file_as_it_says)
 {
   const HomogenizedCell cell = second_order_cell();
-  const std::string path     = temporary("layout.h5");
+  const std::string path     = tests::temporary("layout.h5");
   write_cell(cell, path);
   const Hdf5Reader file(path, "a cell");
   const auto n        = static_cast<unsigned long long>(cell.mesh.n_vertices());
@@ -118,7 +114,7 @@ TEST(exact_cell_file, modes_stand_in_the_file_as_it_says)
 TEST(exact_cell_file, second_order_comes_back_as_it_was_written)
 {
   const HomogenizedCell cell = second_order_cell();
-  const std::string file     = temporary("second-order.h5");
+  const std::string file     = tests::temporary("second-order.h5");
   write_cell(cell, file);
   const HomogenizedCell back = read_cell(file);
   ASSERT_EQ(back.second_order.size(), 2u);
@@ -138,7 +134,7 @@ TEST(exact_cell_file, a_second_order_that_is_not_whole_is_refused_by_name)
   HomogenizedCell cell                                = second_order_cell();
   cell.second_order.at("green").energy.derivatives(3) = std::numeric_limits<double>::quiet_NaN();
   cell.second_order.at("biot").chi.row(0).setOnes();
-  const std::string file = temporary("second-order-faults.h5");
+  const std::string file = tests::temporary("second-order-faults.h5");
   try
   {
     write_cell(cell, file);
@@ -154,7 +150,7 @@ TEST(exact_cell_file, a_second_order_that_is_not_whole_is_refused_by_name)
 TEST(exact_cell_file, bending_comes_back_as_it_was_written)
 {
   const HomogenizedCell cell = bent_cell();
-  const std::string file     = temporary("bent.h5");
+  const std::string file     = tests::temporary("bent.h5");
   write_cell(cell, file);
   const HomogenizedCell back = read_cell(file);
   ASSERT_TRUE(back.bending.has_value());
@@ -164,7 +160,7 @@ TEST(exact_cell_file, bending_comes_back_as_it_was_written)
 
 TEST(tripwire_cell_file, every_truncation_is_refused_by_name)
 {
-  const std::string whole = temporary("whole.h5"), cut = temporary("cut.h5");
+  const std::string whole = tests::temporary("whole.h5"), cut = tests::temporary("cut.h5");
   write_cell(some_cell(), whole);
   const auto size = std::filesystem::file_size(whole);
   for (const double part : {0., 0.01, 0.3, 0.6, 0.9, 0.99})
@@ -178,15 +174,15 @@ TEST(tripwire_cell_file, every_truncation_is_refused_by_name)
 
 TEST(tripwire_cell_file, a_file_of_another_kind_and_an_absent_one_are_refused)
 {
-  const std::string text = temporary("text.h5");
+  const std::string text = tests::temporary("text.h5");
   std::ofstream(text) << "not HDF5\n";
   EXPECT_NE(refusal(text).find("not a readable HDF5 file"), std::string::npos);
-  EXPECT_NE(refusal(temporary("absent.h5")).find("no such file"), std::string::npos);
+  EXPECT_NE(refusal(tests::temporary("absent.h5")).find("no such file"), std::string::npos);
 }
 
 TEST(tripwire_cell_file, values_that_no_cell_has_are_not_written)
 {
-  const std::string file = temporary("bad.h5");
+  const std::string file = tests::temporary("bad.h5");
   std::filesystem::remove(file);
   HomogenizedCell not_finite = some_cell();
   not_finite.chi(2, 3)       = std::numeric_limits<double>::quiet_NaN();

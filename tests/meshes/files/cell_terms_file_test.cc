@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/cell_file.h"
+#include "tests/meshes/files/temporary.h"
 #include "tests/meshes/plain/plain_cell.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
 
 using namespace homespun;
 using namespace homespun::meshes;
@@ -29,18 +28,13 @@ CellEdges some_edges(const int n_vertices)
     of_axis.setRandom();
   return edges;
 }
-
-std::string temporary(const std::string &name)
-{
-  return (std::filesystem::temp_directory_path() / ("homespun-edges-" + name)).string();
-}
 } // namespace
 
 TEST(exact_cell_terms_file, edges_come_back_as_they_were_written)
 {
   HomogenizedCell cell   = tests::plain_cell(tests::skewed_lattice(), 3, 2);
   const CellEdges edges  = some_edges(cell.mesh.n_vertices());
-  const std::string file = temporary("round-trip.h5");
+  const std::string file = tests::temporary("edges-round-trip.h5");
   cell.edges             = edges;
   write_cell(cell, file);
   const std::optional<CellEdges> back = read_cell(file).edges;
@@ -59,7 +53,7 @@ TEST(exact_cell_terms_file, edges_come_back_as_they_were_written)
 
 TEST(exact_cell_terms_file, a_file_without_terms_has_none)
 {
-  const std::string file = temporary("without.h5");
+  const std::string file = tests::temporary("edges-without.h5");
   write_cell(tests::plain_cell(tests::skewed_lattice(), 3, 2), file);
   EXPECT_FALSE(read_cell(file).edges.has_value());
   EXPECT_TRUE(read_cell(file).fitted.empty());
@@ -75,7 +69,7 @@ TEST(exact_cell_terms_file, fitted_modes_come_back_as_they_were_written)
   fitted.modes.setRandom(cell.mesh.n_vertices(), 12);
   fitted.coefficients.setRandom();
   fitted.of_strain.setRandom();
-  const std::string file = temporary("fitted.h5");
+  const std::string file = tests::temporary("edges-fitted.h5");
   write_cell(cell, file);
   const FittedModes back = read_cell(file).fitted.at("yarn");
   EXPECT_EQ(back.low, fitted.low);
@@ -95,7 +89,7 @@ TEST(tripwire_cell_terms_file, modes_that_are_not_those_of_the_cell_are_refused)
   HomogenizedCell cell       = tests::plain_cell(tests::skewed_lattice(), 3, 2);
   cell.edges                 = some_edges(cell.mesh.n_vertices());
   cell.edges->sides[1].decay = 1.5;
-  const std::string file     = temporary("damaged.h5");
+  const std::string file     = tests::temporary("edges-damaged.h5");
   write_cell(cell, file);
   EXPECT_NE(tests::refusal([&]() { read_cell(file); }).find("edge 1"), std::string::npos);
 }

@@ -37,7 +37,7 @@ double box_distance(const Eigen::Vector3d &p, const Eigen::Vector3d &half)
   return q.cwiseMax(0.).norm() + std::min(q.maxCoeff(), 0.);
 }
 
-std::string refusal(const tests::Solid &solid)
+std::string fault_of(const tests::Solid &solid)
 {
   try
   {
@@ -163,21 +163,21 @@ TEST(exact_closed_surface, a_segment_enters_where_it_first_meets_a_face_from_out
 TEST(tripwire_closed_surface, faults_are_named)
 {
   const tests::Solid good = tests::box({0.3, 0.2, 0.1});
-  EXPECT_EQ(refusal(good), "");
+  EXPECT_EQ(fault_of(good), "");
   tests::Solid solid = good;
   solid.triangles.conservativeResize(11, 3);
-  EXPECT_NE(refusal(solid).find("fill the hole"), std::string::npos);
+  EXPECT_NE(fault_of(solid).find("fill the hole"), std::string::npos);
   solid = good;
   for (Eigen::Index f = 0; f < 12; ++f)
     solid.triangles.row(f).reverseInPlace();
-  EXPECT_NE(refusal(solid).find("normals point inwards"), std::string::npos);
+  EXPECT_NE(fault_of(solid).find("normals point inwards"), std::string::npos);
   solid = good;
   solid.triangles.row(3).reverseInPlace();
-  EXPECT_NE(refusal(solid).find("traversed the same way"), std::string::npos);
+  EXPECT_NE(fault_of(solid).find("traversed the same way"), std::string::npos);
   solid                = good;
   solid.vertices(2, 1) = std::nan("");
-  EXPECT_NE(refusal(solid).find("vertex 2 has a coordinate"), std::string::npos);
+  EXPECT_NE(fault_of(solid).find("vertex 2 has a coordinate"), std::string::npos);
   solid                 = good;
   solid.triangles(4, 0) = 8;
-  EXPECT_NE(refusal(solid).find("triangle 4 has a vertex out of range"), std::string::npos);
+  EXPECT_NE(fault_of(solid).find("triangle 4 has a vertex out of range"), std::string::npos);
 }

@@ -17,18 +17,10 @@ using meshes::YarnAxes;
 
 namespace
 {
-/// C^H of the cell plain-weave-straight, rounded: E/G = 1113 [N/m].
-Eigen::Matrix3d plain_weave()
-{
-  Eigen::Matrix3d C;
-  C << 90150., 2034., 0., 2034., 90150., 0., 0., 0., 81.;
-  return C;
-}
-
 /// A stiffness with all couplings, and that of a weave.
 std::vector<YarnAxes> some_yarns()
 {
-  return {yarn_axes(tests::anisotropic()), yarn_axes(plain_weave())};
+  return {yarn_axes(tests::anisotropic()), yarn_axes(tests::plain_weave())};
 }
 
 template <int dim>
@@ -186,7 +178,7 @@ TYPED_TEST(invariant_yarn_energy, rotations_turn_the_stress_and_the_tangent_and_
 TYPED_TEST(exact_yarn_energy, the_hessian_at_rest_is_that_of_the_corotational_energy)
 {
   constexpr int dim = TypeParam::value;
-  for (const Eigen::Matrix3d &C : {tests::anisotropic(), plain_weave()})
+  for (const Eigen::Matrix3d &C : {tests::anisotropic(), tests::plain_weave()})
     EXPECT_LT((yarn_energy_hessian<dim>(at_rest<dim>(), yarn_axes(C)) -
                energy_hessian<dim>(at_rest<dim>(), C))
                 .norm(),
@@ -242,7 +234,7 @@ TYPED_TEST(bound_yarn_energy, degenerate_gradients_have_finite_symmetric_derivat
   add(-1., 0., 0., -1.); // 180 degrees
   for (const double scale : {1e-30, 1e-10, 1e10, 1e30})
     add(scale, 0.1 * scale, 0., -0.5 * scale);
-  const YarnAxes yarns = yarn_axes(plain_weave());
+  const YarnAxes yarns = yarn_axes(tests::plain_weave());
   for (const auto &F : cases)
   {
     const auto hessian   = yarn_energy_hessian<dim>(F, yarns),
@@ -261,7 +253,7 @@ TYPED_TEST(bound_yarn_energy, not_a_number_comes_out_as_such)
   constexpr int dim          = TypeParam::value;
   DeformationGradient<dim> F = at_rest<dim>();
   F(1, 0)                    = std::numeric_limits<double>::quiet_NaN();
-  const YarnAxes yarns       = yarn_axes(plain_weave());
+  const YarnAxes yarns       = yarn_axes(tests::plain_weave());
   EXPECT_TRUE(std::isnan(yarn_energy_density<dim>(F, yarns)));
   EXPECT_FALSE((yarn_energy_gradient<dim>(F, yarns).allFinite()));
   EXPECT_FALSE((yarn_energy_hessian<dim>(F, yarns, Hessian::projected).allFinite()));

@@ -19,14 +19,6 @@ using homespun::tests::InPlaneAndSpace;
 
 namespace
 {
-/// C^H of the cell plain-weave-straight, rounded: E/G = 1113 [N/m].
-Eigen::Matrix3d plain_weave()
-{
-  Eigen::Matrix3d C;
-  C << 90150., 2034., 0., 2034., 90150., 0., 0., 0., 81.;
-  return C;
-}
-
 /// Lower and upper edge of a square of n x n x 2 triangles.
 std::vector<int> two_edges(const int n)
 {
@@ -88,7 +80,7 @@ TEST(exact_yarn_sheet,
   // P11 = E s with E = C11 − C12²/C22, at any s: the corotational cloth has the same.
   const int n       = 5;
   const double side = 0.01;
-  Eigen::Matrix3d C = plain_weave();
+  Eigen::Matrix3d C = tests::plain_weave();
   C(0, 0)           = 70000.; // so that the stiffer yarn is the second one, which is pulled
   const double nu = C(0, 1) / C(0, 0), young = C(1, 1) - C(0, 1) * nu;
   const auto mesh = tests::irregular_sheet(n, side);
@@ -121,8 +113,8 @@ TEST(exact_yarn_sheet, turned_with_its_stiffness_a_sheet_of_yarns_moves_alike)
   const double c = R(0, 0), s = R(1, 0);
   Eigen::Matrix3d into;
   into << c * c, s * s, c * s, s * s, c * c, -c * s, -2. * c * s, 2. * c * s, c * c - s * s;
-  const Eigen::Matrix3d C = into.transpose() * plain_weave() * into;
-  const MembraneSolver first(sheet_of_yarns(mesh, plain_weave()), two_edges(4)),
+  const Eigen::Matrix3d C = into.transpose() * tests::plain_weave() * into;
+  const MembraneSolver first(sheet_of_yarns(mesh, tests::plain_weave()), two_edges(4)),
     second(sheet_of_yarns(turned, C), two_edges(4));
   Positions<2> start = mesh.vertices;
   start.bottomRows(5).col(1).array() += 3e-4;
@@ -139,8 +131,8 @@ TEST(bound_yarn_sheet, a_clamped_strip_of_plain_weave_finds_its_equilibrium_at_f
   const int n       = 20;
   const double side = 0.1;
   const auto mesh   = tests::parallelogram(tests::square_lattice(side), n, n);
-  const MembraneSolver solver(sheet_of_yarns(mesh, plain_weave()), two_edges(n));
-  const MembraneSolver corotational(membrane(mesh, {plain_weave()}), two_edges(n));
+  const MembraneSolver solver(sheet_of_yarns(mesh, tests::plain_weave()), two_edges(n));
+  const MembraneSolver corotational(membrane(mesh, {tests::plain_weave()}), two_edges(n));
   for (const double strain : {0.01, 0.05})
   {
     Positions<2> start = mesh.vertices;
@@ -149,7 +141,7 @@ TEST(bound_yarn_sheet, a_clamped_strip_of_plain_weave_finds_its_equilibrium_at_f
     EXPECT_LE(result.iterations, 15) << strain;
     EXPECT_EQ(result.inverted_triangles, 0);
     // At least that of the free pull, at most that of the straight one.
-    const Eigen::Matrix3d C = plain_weave();
+    const Eigen::Matrix3d C = tests::plain_weave();
     const double straight   = 0.5 * C(1, 1) * strain * strain * side * side;
     EXPECT_LT(result.energy, straight);
     EXPECT_GT(result.energy, straight * (1. - std::pow(C(0, 1) / C(0, 0), 2)));
@@ -169,9 +161,9 @@ TEST(exact_yarn_sheet, a_stiffness_alike_in_all_directions_stays_corotational)
   // Beside a phase with yarns, too.
   auto mesh        = tests::irregular_sheet(2);
   mesh.material(0) = 1;
-  Membrane both    = membrane(mesh, {plain_weave(), tests::isotropic(2., 0.3)});
+  Membrane both    = membrane(mesh, {tests::plain_weave(), tests::isotropic(2., 0.3)});
   take_yarn_law(both);
-  const Membrane corotational = membrane(mesh, {plain_weave(), tests::isotropic(2., 0.3)});
+  const Membrane corotational = membrane(mesh, {tests::plain_weave(), tests::isotropic(2., 0.3)});
   Positions<2> x              = 1.1 * mesh.vertices;
   x.col(0) += 0.2 * mesh.vertices.col(1);
   const auto energy_of_first = [&](Membrane of)

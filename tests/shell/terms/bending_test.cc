@@ -18,8 +18,6 @@ namespace
 {
 
 const PlateStiffness woven{3e-6, 4e-7, 1e-7, 2e-7};
-// Off its axes: bending along them twists it.
-const PlateStiffness skewed{2e-6, 8e-7, 2e-7, 5e-7, 4e-7, -2e-7};
 
 meshes::ClothMesh flat(const meshes::TriangleMesh &rest)
 {
@@ -72,33 +70,27 @@ meshes::ClothMesh tube(const int n, const double radius)
     mesh.triangles.unaryExpr([n](const int v) { return v / (n + 1) * n + v % (n + 1) % n; });
   return mesh;
 }
-
-Vectors crumpled(const meshes::ClothMesh &mesh, const double distance)
-{
-  std::mt19937 generator(3);
-  return mesh.positions + distance * tests::random_matrix<Vectors>(generator, mesh.n_vertices(), 3);
-}
 } // namespace
 
 TEST(invariant_bending, an_affine_map_of_a_flat_sheet_gives_no_force)
 {
   const meshes::ClothMesh mesh = flat(sheet(8, 0.1, 0.1));
   const auto term              = bending_term(mesh, {woven});
-  const double size            = tests::gradient_of(*term, crumpled(mesh, 0.01)).norm();
+  const double size            = tests::gradient_of(*term, tests::crumpled(mesh, 0.01)).norm();
   std::mt19937 generator(5);
   for (int trial = 0; trial < 5; ++trial)
   {
     const Eigen::Matrix3d map = tests::random_matrix<Eigen::Matrix3d>(generator);
     const Vectors x = (mesh.positions * map.transpose()).rowwise() + Eigen::RowVector3d(1., 2., 3.);
     EXPECT_LT(tests::gradient_of(*term, x).norm(), 1e-12 * size);
-    EXPECT_LT(std::abs(term->energy(x)), 1e-12 * term->energy(crumpled(mesh, 0.01)));
+    EXPECT_LT(std::abs(term->energy(x)), 1e-12 * term->energy(tests::crumpled(mesh, 0.01)));
   }
 }
 
 TEST(invariant_bending, forces_carry_no_resultant_and_no_torque)
 {
   const meshes::ClothMesh mesh = flat(sheet(6, 0.1, 0.1));
-  const Vectors x              = crumpled(mesh, 0.03);
+  const Vectors x              = tests::crumpled(mesh, 0.03);
   const Vectors gradient       = tests::gradient_of(*bending_term(mesh, {woven}), x);
   const double size            = gradient.rowwise().norm().sum();
   ASSERT_GT(size, 0.);
@@ -109,7 +101,7 @@ TEST(invariant_bending, forces_carry_no_resultant_and_no_torque)
 TEST(invariant_bending, a_rigid_motion_turns_the_forces_with_the_cloth)
 {
   const meshes::ClothMesh mesh = flat(sheet(6, 0.1, 0.1));
-  const Vectors x              = crumpled(mesh, 0.01);
+  const Vectors x              = tests::crumpled(mesh, 0.01);
   const Eigen::Matrix3d Q      = tests::rotation<3>(2.);
   const Vectors moved          = (x * Q.transpose()).rowwise() + Eigen::RowVector3d(0.1, -0.2, 0.3);
   const auto term              = bending_term(mesh, {woven});
@@ -129,7 +121,7 @@ TEST(invariant_bending, a_seam_between_panels_bends_like_the_cloth_itself)
   for (int t = 0; t < whole.n_triangles(); ++t)
     if (t / 2 % 12 >= 6)
       sewn.rest.triangles.row(t).array() += n;
-  const Vectors x  = crumpled(whole, 0.01);
+  const Vectors x  = tests::crumpled(whole, 0.01);
   const double one = bending_term(whole, {woven})->energy(x),
                two = bending_term(sewn, {woven})->energy(x);
   EXPECT_NEAR(two, one, 1e-11 * one);
@@ -146,7 +138,7 @@ TEST(derivative_bending, the_hessian_is_constant_and_is_that_of_the_energy)
   const meshes::ClothMesh mesh = flat(sheet(5, 0.1, 0.1));
   const auto term              = bending_term(mesh, {woven});
   BlockMatrix matrix           = tests::matrix_for(*term, mesh.n_vertices());
-  const Vectors x              = crumpled(mesh, 0.02);
+  const Vectors x              = tests::crumpled(mesh, 0.02);
   Vectors gradient             = Vectors::Zero(mesh.n_vertices(), 3), product;
   term->add_derivatives(x, Hessian::projected, gradient, matrix);
   matrix.multiply(x, product);
@@ -178,7 +170,8 @@ TEST(order_bending, energy_of_a_rolled_sheet_converges_in_every_direction_on_any
 {
   const double side = 0.1, radius = 0.2;
   for (const double irregularity : {0., 0.1})
-    for (const PlateStiffness &D : {PlateStiffness::isotropic(1e-6, 0.3), woven, skewed})
+    for (const PlateStiffness &D :
+         {PlateStiffness::isotropic(1e-6, 0.3), woven, tests::skewed_plate})
       for (const double angle : {0., 0.25 * M_PI, 0.5 * M_PI, -0.25 * M_PI})
       {
         const double exact = cylinder_energy(D, radius, angle) * side * side;
@@ -232,7 +225,7 @@ TEST(invariant_bending, lattices_cut_along_one_diagonal_keep_their_hinges_and_ot
   const meshes::ClothMesh lattice = flat(sheet(6, 0.1, 0.)), shaken = flat(sheet(6, 0.1, 0.1)),
                           alternating = flat(tests::plate_mesh("alternating", 6));
   const auto energy                   = [](const meshes::ClothMesh &mesh, const auto &term)
-  { return term->energy(crumpled(mesh, 0.005)); };
+  { return term->energy(tests::crumpled(mesh, 0.005)); };
   EXPECT_EQ(energy(lattice, plate_term(lattice, {woven})),
             energy(lattice, bending_term(lattice, {woven})));
   EXPECT_EQ(energy(shaken, plate_term(shaken, {woven})),

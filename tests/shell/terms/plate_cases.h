@@ -22,6 +22,15 @@ namespace homespun::tests
 inline const std::vector<std::string> plate_meshes = {"one diagonal", "alternating", "shaken",
                                                       "Delaunay"};
 
+/// Off its axes: bending along them twists it.
+inline const shell::PlateStiffness skewed_plate{2e-6, 8e-7, 2e-7, 5e-7, 4e-7, -2e-7};
+
+inline shell::Vectors crumpled(const meshes::ClothMesh &mesh, const double distance)
+{
+  std::mt19937 generator(3);
+  return mesh.positions + distance * random_matrix<shell::Vectors>(generator, mesh.n_vertices(), 3);
+}
+
 /// Turns diagonals until every triangle's circle is empty (Lawson).
 inline void make_delaunay(meshes::TriangleMesh &mesh)
 {

@@ -19,13 +19,13 @@ using shell::ShortWaves;
 
 namespace
 {
-constexpr int n           = 24; // sides along the sheet
-constexpr double side     = 1. / n;
+constexpr int n_sides     = 24; // along the sheet
+constexpr double side     = 1. / n_sides;
 constexpr double no_waves = std::numeric_limits<double>::infinity();
 
 meshes::ClothMesh sheet(const std::string &kind)
 {
-  return tests::lying(tests::plate_mesh(kind, n));
+  return tests::lying(tests::plate_mesh(kind, n_sides));
 }
 
 /// Coordinates along a direction and across it, from the middle of the sheet.
@@ -113,7 +113,7 @@ TEST(tripwire_short_waves, a_sheet_that_is_twisted_has_none_on_an_uneven_mesh)
   // A mesh breaks the balance of both curvatures of a saddle, here and there.
   for (const std::string &kind : {"one diagonal", "alternating"})
   {
-    meshes::TriangleMesh rest = tests::plate_mesh(kind, n);
+    meshes::TriangleMesh rest = tests::plate_mesh(kind, n_sides);
     const SpacePoints moves   = 0.3 * side * meshes::random_vectors(rest.n_vertices(), 2);
     for (int v = 0; v < rest.n_vertices(); ++v)
       if (const auto x = rest.vertices.row(v).array(); (x > 1e-9).all() && (x < 1. - 1e-9).all())
