@@ -3,9 +3,9 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/index.h"
+#include "meshes/plain/symmetric_eigen.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -25,9 +25,8 @@ SideStiffness long_row_of_cells(SideStiffness row, const Eigen::MatrixXd &rigid)
   constexpr int n_doublings = 12;
   const auto is_slender     = [&]()
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> of_rigid(rigid.transpose() * row.first *
-                                                                  rigid);
-    return of_rigid.eigenvalues()(0) < 1e-11 * row.first.norm();
+    const Eigen::Matrix2d of_rigid = rigid.transpose() * row.first * rigid;
+    return meshes::symmetric_eigen<2>(of_rigid).values(0) < 1e-11 * row.first.norm();
   };
   for (int k = 0; k < n_doublings && !is_slender(); ++k)
   {

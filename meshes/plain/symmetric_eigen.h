@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eigenvalues of small symmetric matrices. Eigen's solver, compiled here once and not in each
-// source that asks for them.
+// Eigenvalues of symmetric matrices. Eigen's solver, which takes a compiler as long as a source of
+// 500 lines does, compiled here once and not in each source that asks for them.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,8 @@ struct SymmetricEigen
   Eigen::Matrix<double, n, n> vectors; ///< in columns, of length 1
 };
 
-/// Eigenvalues and eigenvectors of a symmetric matrix of 2, 3 or 4 rows, by QR iterations.
+/// Eigenvalues and eigenvectors of a symmetric matrix, by QR iterations.
+/// @tparam n 2, 3, 4 or Eigen::Dynamic
 /// @param A whose lower triangle is read
 template <int n>
 SymmetricEigen<n> symmetric_eigen(const Eigen::Matrix<double, n, n> &A);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "localization/upsampler.h"
+#include "meshes/plain/singular_values.h"
 #include "tests/meshes/plain/plain_cell.h"
 
 #include <Eigen/Geometry>
@@ -89,12 +90,12 @@ Eigen::Matrix<double, dim, 2> some_stretch()
 template <int dim>
 localization::Frame<dim> frame_by_svd(const Eigen::Matrix<double, dim, 2> &F)
 {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(F, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::Matrix2d V = svd.matrixV(),
-                        U = V * svd.singularValues().asDiagonal() * V.transpose();
+  const meshes::SingularValues svd =
+    meshes::singular_values(F, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::Matrix2d V = svd.V, U = V * svd.values.asDiagonal() * V.transpose();
   localization::Frame<dim> frame;
   frame.strain << U(0, 0) - 1., U(1, 1) - 1., 2. * U(0, 1);
-  frame.lift = svd.matrixU() * V.transpose();
+  frame.lift = svd.U * V.transpose();
   return frame;
 }
 

@@ -3,11 +3,11 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/singular_values.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "meshes/plain/triangle_kinematics.h"
 #include "shell/membrane/corotational_energy.h"
 #include "verification/periodic_cell/halton.h"
 
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -130,15 +130,15 @@ Eigen::MatrixXd functions_at(const Eigen::MatrixXd &strains, const Eigen::Vector
 /// The directions in which weighted rows lie most, a row each.
 Eigen::MatrixXd largest_directions(const Eigen::MatrixXd &rows, const int number)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(rows * rows.transpose());
+  const auto gram        = meshes::symmetric_eigen<Eigen::Dynamic>(rows * rows.transpose());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(number, rows.cols());
   for (int k = 0; k < number && k < rows.rows(); ++k)
   {
     const Eigen::Index at = rows.rows() - 1 - k;
-    const double squared  = gram.eigenvalues()(at);
+    const double squared  = gram.values(at);
     // Below it is round-off: a laminate has fewer directions than modes.
-    if (squared > 1e-20 * gram.eigenvalues()(rows.rows() - 1))
-      result.row(k) = gram.eigenvectors().col(at).transpose() * rows / std::sqrt(squared);
+    if (squared > 1e-20 * gram.values(rows.rows() - 1))
+      result.row(k) = gram.vectors.col(at).transpose() * rows / std::sqrt(squared);
   }
   return result;
 }

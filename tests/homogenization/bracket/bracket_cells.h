@@ -4,9 +4,9 @@
 
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/cell/material.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "tests/meshes/plain/shapes.h"
 
-#include <Eigen/Eigenvalues>
 
 #include <functional>
 
@@ -87,7 +87,7 @@ inline homogenization::Bracket bracketed(const BracketCell &cell, const unsigned
 inline bool is_ordered(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper,
                        const double slack = 0.)
 {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0) >=
+  return meshes::symmetric_eigen<3>(upper - lower).values(0) >=
          -slack * upper.cwiseAbs().maxCoeff();
 }
 } // namespace homespun::tests

@@ -3,8 +3,8 @@
 
 #include "homogenization/cell/cell_keys.h"
 #include "homogenization/cell/cell_mesh_file.h"
+#include "meshes/plain/symmetric_eigen.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(invariant_material, plane_stress_stays_regular_at_incompressibility)
   for (const double nu : {-0.99, 0., 0.5, 0.999})
   {
     const Eigen::Matrix3d c = plane_stress_stiffness(isotropic("p", 1., nu, 1., 1.));
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c).eigenvalues()(0), 0.) << nu;
+    EXPECT_GT(meshes::symmetric_eigen<3>(c).values(0), 0.) << nu;
     EXPECT_TRUE(faults_of(isotropic("p", 1., nu, 1., 1.)).empty()) << nu;
   }
 }

@@ -2,6 +2,7 @@
 // What every term of a moving cloth is asked: its matrix, its Taylor remainders, its balance.
 #pragma once
 
+#include "meshes/plain/symmetric_eigen.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/terms/term.h"
 #include "tests/shell/shell_cases.h"
@@ -108,7 +109,7 @@ inline TaylorOrders taylor_orders(shell::Term &term, const shell::Vectors &x,
 /// Smallest over largest eigenvalue.
 inline double smallest_eigenvalue_ratio(const shell::BlockMatrix &matrix)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(dense(matrix));
-  return modes.eigenvalues().minCoeff() / modes.eigenvalues().cwiseAbs().maxCoeff();
+  const Eigen::VectorXd modes = meshes::symmetric_eigen<Eigen::Dynamic>(dense(matrix)).values;
+  return modes.minCoeff() / modes.cwiseAbs().maxCoeff();
 }
 } // namespace homespun::tests

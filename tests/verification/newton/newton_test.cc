@@ -2,10 +2,10 @@
 #include "verification/newton/newton.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "verification/newton/halved_parts.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,9 +47,8 @@ public:
     if (tangent == Tangent::projected)
     {
       ++n_projected;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> modes(K);
-      K = modes.eigenvectors() * modes.eigenvalues().cwiseMax(1e-3).asDiagonal() *
-          modes.eigenvectors().transpose();
+      const auto modes = meshes::symmetric_eigen<2>(K);
+      K = modes.vectors * modes.values.cwiseMax(1e-3).asDiagonal() * modes.vectors.transpose();
     }
     const Eigen::LLT<Eigen::Matrix2d> factor(K);
     if (factor.info() != Eigen::Success)

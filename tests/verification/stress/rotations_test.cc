@@ -2,6 +2,7 @@
 // One triangle turned, mirrored, collapsed, scaled; twisted strips; numbers that are not finite.
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "shell/contact/obstacles.h"
 #include "shell/membrane/corotational_energy.h"
 #include "shell/terms/inertial_terms.h"
@@ -11,7 +12,6 @@
 #include "tests/verification/stress/checks.h"
 #include "verification/stress/stress_sheet.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -95,10 +95,10 @@ StressAnswer of_rank(const SheetStiffness &stiffness, const int rank, const unsi
   const Eigen::Matrix<double, 9, 9> H = matrix_of(found);
   if (!H.allFinite())
     return {no_number, H};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> modes(H);
+  const Eigen::VectorXd modes = meshes::symmetric_eigen<Eigen::Dynamic>(H).values;
   Eigen::MatrixXd values(9, 10);
   values << H, Eigen::Map<const Eigen::VectorXd>(found.gradient.data(), 9);
-  return {-modes.eigenvalues().minCoeff() / modes.eigenvalues().cwiseAbs().maxCoeff(), values};
+  return {-modes.minCoeff() / modes.cwiseAbs().maxCoeff(), values};
 }
 
 /// P(QF) = Q P(F), at any size of F.
