@@ -28,10 +28,9 @@ Eigen::Matrix3d varied(const Eigen::Matrix3d &stiffness, const Eigen::RowVector2
          (0.8 + 0.7 * std::cos(x) * std::sin(y + 1.)) * other;
 }
 
-meshes::TriangleMesh irregular_mesh(const int n)
+meshes::TriangleMesh irregular_mesh(const int n, const int n_coarsest)
 {
-  constexpr int n_coarsest = 6;
-  int refinements          = 0;
+  int refinements = 0;
   while (n_coarsest << refinements < n)
     ++refinements;
   return meshes::refined(meshes::irregular_sheet(n_coarsest, manufactured_side), refinements);

@@ -28,9 +28,9 @@ Eigen::Matrix3d without_contraction();
 /// anisotropy; without contraction where `stiffness` is [N/m].
 Eigen::Matrix3d varied(const Eigen::Matrix3d &stiffness, const Eigen::RowVector2d &point);
 
-/// An irregular mesh, always the same one, refined until there are n divisions along a side: were
-/// it drawn anew on each level, chance would blur the orders.
-meshes::TriangleMesh irregular_mesh(int n);
+/// An irregular mesh of n_coarsest divisions along a side, always the same one, refined until there
+/// are n: were it drawn anew on each level, chance would blur the orders.
+meshes::TriangleMesh irregular_mesh(int n, int n_coarsest = 6);
 
 /// A field with its derivatives by the rest point.
 struct Wave

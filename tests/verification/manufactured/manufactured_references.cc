@@ -21,6 +21,8 @@ namespace
 {
 constexpr double density = 0.2; ///< [kg/m^2]
 
+constexpr int n_coarsest = 4; ///< divisions of a side before meshes are refined
+
 std::vector<int> sizes_of(const unsigned int order)
 {
   return order == 1 ? std::vector<int>{8, 16, 32, 64} : std::vector<int>{4, 8, 16, 32};
@@ -52,7 +54,7 @@ ManufacturedCase plane_case(const std::string &load_name, const Law law, const u
     const Load load(load_name);
     meshes::Lattice lattice;
     lattice.vectors           = manufactured_side * Eigen::Matrix2d::Identity();
-    const meshes::Sheet sheet = meshes::tile(irregular_mesh(n), lattice, 1, 1);
+    const meshes::Sheet sheet = meshes::tile(irregular_mesh(n, n_coarsest), lattice, 1, 1);
     const auto affine         = [&](const double s) -> Eigen::Matrix2d
     {
       if (load.is_periodic())
@@ -147,7 +149,8 @@ ClothReference cloth_reference(const int n, const Law law, const unsigned int or
   options.order           = order;
   options.consistent_mass = consistent;
   options.tolerance       = solver_tolerance;
-  return ClothReference(irregular_mesh(n), {anisotropic()}, {density}, options, communicator);
+  return ClothReference(irregular_mesh(n, n_coarsest), {anisotropic()}, {density}, options,
+                        communicator);
 }
 
 /// @throws NotConverged where a step is not reached, or was cut: then it is not the scheme that was
@@ -253,7 +256,8 @@ ManufacturedCase time_case(const Law law)
       const double acceleration = 0.5 * rate * rate * std::cos(rate * time);
       return Eigen::RowVector3d(density * acceleration * (change * point.transpose()).transpose());
     };
-    ClothReference cloth = cloth_reference(6, law, 1, true, solver_tolerance, communicator);
+    ClothReference cloth =
+      cloth_reference(n_coarsest, law, 1, true, solver_tolerance, communicator);
     cloth.start(start_of(motion), rim_of(motion), loads);
     take_steps(cloth, n_steps, end / n_steps);
     return ManufacturedSolution{cloth.distance_from(at_time(motion, end)), cloth.n_dofs(),
