@@ -139,8 +139,9 @@ def tests_beside(names, file):
 
 
 def programs_of(tests, build):
-    """Of each test, the program of the build tree that it runs; None where it runs another one."""
-    paths = [os.path.relpath(test["command"][0], build) for test in tests]
+    """Of each test, the program of the build tree that it runs; None where it runs another one, or
+    one that is not built."""
+    paths = [os.path.relpath(test.get("command", [".."])[0], build) for test in tests]
     return [None if path.startswith("..") else path for path in paths]
 
 

@@ -3,6 +3,7 @@
 
 #include "homogenization/cell/parameter_text.h"
 #include "meshes/plain/errors.h"
+#include "verification/record/claim.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +146,41 @@ std::vector<Sensitivity> sensitivities(const UnitCell &cell, const AssessedCell 
     }
   }
   return all;
+}
+
+std::vector<Verdict> scaling_checks(const UnitCell &cell, const AssessedCell &assessed)
+{
+  // Sums of both sides have the same products of fields: what is left is their rounding.
+  constexpr double rounding          = 1e-9;
+  const std::vector<Sensitivity> all = sensitivities(cell, assessed);
+  const bool has_layers =
+    std::any_of(cell.phases.begin(), cell.phases.end(), [](const Phase &p) { return !!p.plate; });
+  if (all.empty() || has_layers)
+    return {};
+  const auto check = [&](const char *name, const auto of, const Eigen::Matrix3d &stiffness,
+                         const double degree, const double limit)
+  {
+    Eigen::Matrix3d of_moduli = Eigen::Matrix3d::Zero(), of_thickness = of_moduli;
+    for (const Sensitivity &its : all)
+      if (its.constant == MaterialConstant::thickness)
+        of_thickness += its.value / degree * its.*of;
+      else if (homogenization::unit_of(its.constant) == "Pa")
+        of_moduli += its.value * its.*of;
+    const double off = larger((of_moduli - stiffness).cwiseAbs().maxCoeff(),
+                              (of_thickness - stiffness).cwiseAbs().maxCoeff());
+    return at_most("scaling", {{"stiffness", name}, {"degree", degree}},
+                   off / stiffness.cwiseAbs().maxCoeff(), limit);
+  };
+  const CellBracket &bracket  = *assessed.bracket;
+  const bool is_drawn         = bracket.bracket->is_of_drawing;
+  std::vector<Verdict> checks = {
+    check("C^H", &Sensitivity::of_C, is_drawn ? *bracket.on_given_mesh : bracket.bracket->stiffness,
+          1., rounding)};
+  // D of a drawing takes the stiffer phase wherever its curves leave open which one is there.
+  if (assessed.bending && assessed.bending->bracket)
+    checks.push_back(check("D^H", &Sensitivity::of_D, assessed.bending->bracket->stiffness, 3.,
+                           rounding + (is_drawn ? assessed.bending->bracket->width : 0.)));
+  return checks;
 }
 
 std::vector<UncertainInput> uncertain_inputs(const UnitCell &cell, const std::string &text)

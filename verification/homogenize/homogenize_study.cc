@@ -108,6 +108,8 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                 [&](const std::string &step)
                 { bracket.tolerance ? progress.note(step) : progress.begin(step); },
                 its);
+              for (const Verdict &check : scaling_checks(cell, its))
+                its.checks.push_back(check);
             });
     return its;
   }();

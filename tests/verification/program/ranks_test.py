@@ -19,17 +19,17 @@ from read.vtu import read_vtu  # noqa: E402
 
 class Ranks(InFolder):
     def stiffness(self, cell, order, ranks):
-        output = self.folder / f"{cell}-{order}-{ranks}"
-        result = run("homogenize", CELLS / f"{cell}.prm", "--order", order, "--refine", 1,
-                     "--no-bars", "--quiet", "--output", output, ranks=ranks)
+        output = self.folder / f"{cell.stem}-{order}-{ranks}"
+        result = run("homogenize", cell, "--order", order, "--refine", 1, "--no-bars", "--quiet",
+                     "--output", output, ranks=ranks)
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads((output / "homogenize.json").read_text())["C"]
 
     def test_stiffness_agrees_on_one_two_and_four_ranks(self):
-        for cell, order in (("layered", 1), ("layered", 2), ("three-stiffness", 2)):
+        for cell, order, numbers in ((LAYERED, 1, (2,)), (LAYERED, 2, (2,)), (THREE, 2, (2, 4))):
             alone = self.stiffness(cell, order, 1)
             largest = max(abs(value) for row in alone for value in row)
-            for ranks in (2, 4):
+            for ranks in numbers:
                 together = self.stiffness(cell, order, ranks)
                 for i in range(3):
                     for j in range(3):

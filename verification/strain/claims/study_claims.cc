@@ -128,6 +128,9 @@ std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStud
   }
   add(verdicts_of_nested_forces(output.uncertainty.rows()));
   add(verdicts_of_forces(output.forces.rows()));
+  const std::vector<GainRow> gains = gain_rows(output.strain.rows());
+  if (!gains.empty())
+    add({verdict_of_bases(gains, output.strain.rows())});
   add({verdict_of_norms(output.strain.rows()),
        verdict_of_reading(output.strain.rows(), options.output)});
   return verdicts;

@@ -2,6 +2,7 @@
 #include "verification/strain/claims/table_verdicts.h"
 
 #include "verification/law/laws.h"
+#include "verification/method/method.h"
 #include "verification/record/claim.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/claims/strain_verdicts.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace homespun::verification
@@ -44,6 +46,27 @@ Verdict verdict_of_norms(const std::vector<StrainRow> &rows)
       n_wrong += !(row.mean <= (1. + rounding) * row.rms && row.rms <= (1. + rounding) * row.max);
     }
   return open_without(n_rows, at_most("norms", {{"rows", n_rows}}, n_wrong, 0.));
+}
+
+Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows)
+{
+  int n_wrong = 0;
+  for (const GainRow &gain : gains)
+  {
+    const Method method(gain.method), coarse = method.without(Term::micro), p2("affine+p2");
+    double of_base = GainRow::none, least = std::numeric_limits<double>::infinity();
+    for (const StrainRow &row : rows)
+      if (is_of_case(row, gain) && row.strain == gain.strain && std::isfinite(row.mean))
+      {
+        const Method its(row.method);
+        if (row.method == gain.base)
+          of_base = row.mean;
+        if (its.has_terms_of(coarse) || (method.has(Term::p2) && its.has_terms_of(p2)))
+          least = std::min(least, row.mean);
+      }
+    n_wrong += !(of_base <= least);
+  }
+  return at_most("best-base", {{"rows", gains.size()}}, n_wrong, 0.);
 }
 
 std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow> &rows)

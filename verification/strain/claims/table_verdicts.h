@@ -15,6 +15,10 @@ namespace homespun::verification
 /// strain.csv: mean <= root mean square <= largest distance, in every row.
 Verdict verdict_of_norms(const std::vector<StrainRow> &rows);
 
+/// gains.csv: the error of a row's base is not larger than that of its method without microscopic
+/// displacement or, where it has six-node coarse triangles, of `affine+p2`.
+Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows);
+
 /// uncertainty.csv, for every cell and sheet load in linear theory: the force, twice the energy
 /// over the way of the clamp and width, falls from P1 to P2 to refined P2, whose spaces contain
 /// each other; none for a sheet whose P1 is exact.

@@ -59,6 +59,25 @@ struct Folder
 };
 } // namespace
 
+TEST(bound_table_verdicts, no_coarse_cloth_that_may_be_the_base_is_closer_than_the_base)
+{
+  std::vector<StrainRow> rows;
+  for (const auto &[method, error] :
+       {std::pair("affine", 1.), std::pair("affine+p2", 3.), std::pair("full-micro", 4.),
+        std::pair("localized", 0.5), std::pair("full", 0.1)})
+  {
+    rows.push_back({"cell", "strip-1", 0.01, "biot", method});
+    rows.back().mean = error;
+  }
+  std::vector<GainRow> gains = {{"cell", "strip-1", 0.01, "biot", "localized", "affine"},
+                                {"cell", "strip-1", 0.01, "biot", "full", "affine+p2"}};
+  EXPECT_EQ(verdict_of_bases(gains, rows).outcome, Outcome::pass); // affine is no base of `full`
+  gains[1].base = "full-micro";
+  EXPECT_EQ(verdict_of_bases(gains, rows).outcome, Outcome::fail);
+  gains[1].base = "nobody";
+  EXPECT_EQ(verdict_of_bases(gains, rows).value, 1.);
+}
+
 TEST(bound_table_verdicts, norms_stand_in_their_order)
 {
   // Distances 1, 2, 3.
