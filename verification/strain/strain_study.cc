@@ -16,8 +16,10 @@
 #include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
+#include "verification/strain/claims/coarse_checks.h"
 #include "verification/strain/claims/self_checks.h"
 #include "verification/strain/claims/study_claims.h"
+#include "verification/strain/claims/table_verdicts.h"
 #include "verification/strain/kept_positions.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/run_time.h"
@@ -111,7 +113,11 @@ private:
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
     on_root(communicator, [&]() { fitted = modes_of_study(options, cell, homogenized, *output); });
-    edges  = needs.edges ? *assessed.edges : KnownEdges();
+    edges = needs.edges ? *assessed.edges : KnownEdges();
+    on_root(communicator,
+            [&]() {
+              add(coarse_checks(cell, {homogenized, edges.edges ? &*edges.edges : nullptr}));
+            });
     ladder = kept_ladder(cell, {homogenized, edges.edges}, communicator);
 
     // Made where a load asks for them; the run times have references of their own.
@@ -127,6 +133,8 @@ private:
                                                 cell.stiffness_of_phase(), communicator);
       study_load(cell, homogenized, load, *its);
     }
+    on_root(communicator, [&]()
+            { add(verdicts_of_cubic_energy(output->forces.rows(), cell.name, homogenized)); });
     if (has_run_times(options))
     {
       of_sheet.reset();

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The layers at the edges of a sheet by what they are for: on a clamped edge the up-sampled sheet
-// is where it is held, vertex by vertex, and on a free edge nothing pulls at its vertices. Both
-// hold to first order in the cell: what layers leave, over what there is without them, is of
-// order 1 in cell side over sheet side. A layer that belongs to another edge leaves as much as
-// none.
+// What the layers at the edges of a sheet leave is of first order in the cell; a layer that belongs
+// to another edge leaves as much as none.
 #include "homogenization/edges/edge_layers.h"
 #include "homogenization/lint/cell_reading.h"
-#include "shell/membrane/membrane.h"
 #include "tests/homogenization/cell/cells.h"
-#include "verification/method/coarse_model.h"
 #include "verification/record/convergence.h"
+#include "verification/strain/claims/coarse_checks.h"
+#include "verification/strain/claims/layer_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -22,93 +19,20 @@ using meshes::CellEdges;
 
 namespace
 {
-constexpr double strain = 1e-3; // any: the law is linear
-
-/// Of the vertices of a clamped edge the distance from where they are held [m], of those of a free
-/// one the force that pulls at them [N].
-struct Wrong
+/// A cell, its edges, and a sheet of it.
+struct SheetOfCell
 {
-  double mean = 0., largest = 0.;
-};
-using OfEdges = std::array<Wrong, CellEdges::n_sides>;
-
-struct LayeredSheet
-{
-  /// @param n_quads of the coarse mesh along a cell
-  LayeredSheet(const homogenization::UnitCell &cell, const Load &load, const int n_cells,
-               const int n_quads)
-      : cell(cell)
-      , load(load)
-      , homogenized(tests::homogenized(cell))
+  SheetOfCell(const homogenization::UnitCell &cell, const char *load, const int n_cells,
+              const int n_quads)
+      : homogenized(tests::homogenized(cell))
       , edges(homogenization::edges_of(cell, {}))
-      , sheet(meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells))
-      , model({homogenized, &edges}, sheet, load, Method("full"), Law::linear,
-              quads_per_cell(sheet, n_quads))
-      , coarse(model.on_grid(model.solve(strain)))
-      , membrane(shell::membrane(sheet.mesh, cell.stiffness_of_phase()))
+      , sheet(cell, {homogenized, &edges}, Load(load), n_cells, n_quads)
   {
   }
-
-  /// The up-sampled displacement with the layers of given edges.
-  meshes::Points displacement(const CellEdges &with) const
-  {
-    localization::UpsamplerOptions options = model.parts.options;
-    options.edges                          = &with;
-    meshes::Points fine;
-    localization::Upsampler<2, double>(homogenized, model.parts.space.grid.mesh, sheet, options)
-      .upsample(coarse, fine);
-    return fine - sheet.mesh.vertices;
-  }
-
-  /// @param apart from both ends of an edge, as a part of it: vertices that are nearer are left out
-  OfEdges wrong(const CellEdges &with, const double apart) const
-  {
-    const meshes::Points u           = displacement(with);
-    const shell::Positions<2> forces = shell::linear_membrane_gradient(membrane, u);
-    OfEdges sums                     = {};
-    std::array<int, sums.size()> n   = {};
-    for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-    {
-      const Eigen::RowVector2d at = sheet.fraction(sheet.mesh.vertices.row(v));
-      for (std::size_t side = 0; side < sums.size(); ++side)
-      {
-        const int axis     = meshes::axis_of_side(static_cast<int>(side));
-        const double along = at(1 - axis);
-        if (std::abs(at(axis) - (meshes::is_far_side(static_cast<int>(side)) ? 1. : 0.)) > 1e-9 ||
-            std::min(along, 1. - along) < apart - 1e-9)
-          continue;
-        const double size = axis == load.axis()
-                              ? (u.row(v) - load.displacement(at, sheet.sides(), strain)).norm()
-                              : forces.row(v).norm();
-        sums[side].mean += size;
-        sums[side].largest = std::max(sums[side].largest, size);
-        ++n[side];
-      }
-    }
-    for (std::size_t side = 0; side < sums.size(); ++side)
-      sums[side].mean /= n[side];
-    return sums;
-  }
-
-  const homogenization::UnitCell &cell;
-  const Load load;
   const meshes::HomogenizedCell homogenized;
   const CellEdges edges;
-  const meshes::Sheet sheet;
-  const CoarseModel model;
-  const meshes::Points coarse;
-  const shell::Membrane membrane;
+  const LayeredSheet sheet;
 };
-
-CellEdges without_layers(CellEdges edges)
-{
-  for (meshes::CellEdge &edge : edges.sides)
-  {
-    edge.clamped.setZero();
-    edge.free.setZero();
-  }
-  return edges;
-}
 
 /// Layers of the opposite edge; slip and tension stay.
 CellEdges exchanged(const CellEdges &edges)
@@ -148,10 +72,10 @@ TEST(order_layers_on_sheets, what_they_leave_on_their_edges_falls_with_the_cell)
     std::array<std::vector<double>, CellEdges::n_sides> left, left_by_others;
     for (const int n : {4, 8, 16, 32})
     {
-      const LayeredSheet sheet(cell, Load(name), n, 6);
-      const OfEdges with   = sheet.wrong(sheet.edges, 0.25),
-                    none   = sheet.wrong(without_layers(sheet.edges), 0.25),
-                    others = sheet.wrong(exchanged(sheet.edges), 0.25);
+      const SheetOfCell of(cell, name, n, 6);
+      const EdgeResiduals with   = of.sheet.left_by(of.edges, 0.25),
+                          none   = of.sheet.left_by(without_layers(of.edges), 0.25),
+                          others = of.sheet.left_by(exchanged(of.edges), 0.25);
       sizes.push_back(1. / n);
       for (std::size_t side = 0; side < none.size(); ++side)
       {
@@ -183,18 +107,54 @@ TEST(bound_layers_on_sheets, a_clamped_edge_is_farther_off_than_without_them_at_
     homogenization::read_unit_cell(std::string(CELLS) + "checkerboard.prm");
   for (const int n : {4, 8})
   {
-    const LayeredSheet sheet(cell, Load("strip-1"), n, 8);
-    const CellEdges no_layers = without_layers(sheet.edges);
+    const SheetOfCell of(cell, "strip-1", n, 8);
+    const CellEdges no_layers = without_layers(of.edges);
     for (const std::size_t side : {0, 1})
     {
       const auto largest = [&](const CellEdges &with, const double apart)
-      { return sheet.wrong(with, apart)[side].largest; };
-      EXPECT_GT(largest(sheet.edges, 0.), largest(no_layers, 0.));
-      EXPECT_LT(largest(sheet.edges, 1. / n), largest(no_layers, 1. / n) / n);
+      { return of.sheet.left_by(with, apart)[side].largest; };
+      EXPECT_GT(largest(of.edges, 0.), largest(no_layers, 0.));
+      EXPECT_LT(largest(of.edges, 1. / n), largest(no_layers, 1. / n) / n);
       std::printf("%d cells, edge %zu: farthest %.2e m, without %.2e; beyond the corners %.2e, "
                   "without %.2e\n",
-                  n, side, largest(sheet.edges, 0.), largest(no_layers, 0.),
-                  largest(sheet.edges, 1. / n), largest(no_layers, 1. / n));
+                  n, side, largest(of.edges, 0.), largest(no_layers, 0.), largest(of.edges, 1. / n),
+                  largest(no_layers, 1. / n));
     }
   }
+}
+
+TEST(tripwire_layer_checks, layers_of_another_sign_or_edge_fail)
+{
+  const homogenization::UnitCell cell       = lopsided();
+  const meshes::HomogenizedCell homogenized = tests::homogenized(cell);
+  const CellEdges edges                     = homogenization::edges_of(cell, {});
+  const auto outcomes                       = [&](const CellEdges &with)
+  {
+    std::vector<Outcome> found;
+    for (const Verdict &one : layer_checks(cell, {homogenized, &with}))
+      found.push_back(one.outcome);
+    return found;
+  };
+  using Outcomes = std::vector<Outcome>;
+  EXPECT_EQ(outcomes(edges), (Outcomes{Outcome::pass, Outcome::pass}));
+  CellEdges against = edges;
+  for (meshes::CellEdge &edge : against.sides)
+    edge.free *= -1.;
+  EXPECT_EQ(outcomes(against), (Outcomes{Outcome::pass, Outcome::fail}));
+  EXPECT_EQ(outcomes(exchanged(edges)), (Outcomes{Outcome::fail, Outcome::fail}));
+  EXPECT_EQ(outcomes(without_layers(edges)), Outcomes());
+}
+
+TEST(exact_coarse_checks, coarse_cloths_of_a_cell_without_symmetry_pass_with_edges_and_without)
+{
+  const homogenization::UnitCell cell       = lopsided();
+  const meshes::HomogenizedCell homogenized = tests::homogenized(cell);
+  const CellEdges edges                     = homogenization::edges_of(cell, {});
+  EXPECT_EQ(coarse_checks(cell, {homogenized, nullptr}).size(), 2u);
+  const std::vector<Verdict> checks = coarse_checks(cell, {homogenized, &edges});
+  ASSERT_EQ(checks.size(), 4u);
+  for (const Verdict &check : checks)
+    EXPECT_EQ(check.outcome, Outcome::pass) << check.claim << ": " << check.value;
+  EXPECT_LT(checks[0].value, 0.02); // order 1
+  EXPECT_LT(checks[1].value, 1e-13);
 }

@@ -84,8 +84,8 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
   {
     const StrainStudyOptions options = options_of(asked, cell);
     const Words of_cell              = {{"cell", cell.name}};
-    for (const char *id :
-         {"cell-file-energy", "cell-file-anchor", "phases-turned", "sheet-at-rest"})
+    for (const char *id : {"cell-file-energy", "cell-file-anchor", "phases-turned", "sheet-at-rest",
+                           "linear-limit", "six-node-energy"})
       owed.push_back({id, of_cell});
     for (const std::string &reference : options.references)
       owed.push_back({"law-derivatives", {{"cell", cell.name}, {"reference", reference}}});

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What the coarse cloths of a strain study must do on any cell, asked of this one on small sheets.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "localization/method.h"
+#include "verification/record/verdict.h"
+
+#include <vector>
+
+namespace homespun::verification
+{
+/// - on 4 x 4 cells, under both strips, the coarse cloth with six-node triangles and the terms of
+///   edges that are known comes to its linear theory: the difference of positions over strain falls
+///   with the strain, of order 1; open where it finds no equilibrium
+/// - six-node triangles of C^H have the energy of a quadratic displacement in closed form
+/// - those of layer_checks(), where edges are known
+std::vector<Verdict> coarse_checks(const homogenization::UnitCell &cell,
+                                   const localization::CellModel &model);
+} // namespace homespun::verification

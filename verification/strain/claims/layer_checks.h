@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The layers at the edges of a sheet by what they are for: on a clamped edge the up-sampled sheet
+// is where it is held, vertex by vertex, and on a free edge nothing pulls at its vertices. Both
+// hold to first order in the cell: what layers leave, over what there is without them, is of
+// order 1 in cell side over sheet side.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "shell/membrane/membrane.h"
+#include "verification/method/coarse_model.h"
+#include "verification/record/verdict.h"
+
+#include <array>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Of the vertices of a clamped edge the distance from where they are held [m], of those of a free
+/// one the force that pulls at them [N].
+struct EdgeResidual
+{
+  double mean = 0., largest = 0.;
+};
+using EdgeResiduals = std::array<EdgeResidual, meshes::CellEdges::n_sides>;
+
+/// A sheet under a load in linear theory, up-sampled by `full`.
+class LayeredSheet
+{
+public:
+  /// @param cell, model to be kept by the caller, the latter with its edges
+  /// @param n_quads of the coarse mesh along a cell
+  /// @throws NotConverged
+  LayeredSheet(const homogenization::UnitCell &cell, const CellModel &model, const Load &load,
+               int n_cells, int n_quads);
+
+  /// What the layers of given edges leave.
+  /// @param apart from both ends of an edge, as a part of it: vertices that are nearer are left out
+  EdgeResiduals left_by(const meshes::CellEdges &edges, double apart) const;
+
+private:
+  const CellModel of_cell;
+  const Load load;
+  const meshes::Sheet sheet;
+  const CoarseModel model;
+  const meshes::Points coarse;
+  const shell::Membrane membrane;
+};
+
+/// The same edges without layers: their slip and tension.
+meshes::CellEdges without_layers(const meshes::CellEdges &edges);
+
+/// Two claims: in the middle half of clamped edges, and of free ones, layers leave less than there
+/// is without them, on sheets of 8 x 8 cells under both strips, the worst edge of all that have
+/// layers. Where they leave more, 16 x 16 cells are asked: open where what they leave falls by more
+/// than a quarter, towards its first order. None where no edge has any.
+std::vector<Verdict> layer_checks(const homogenization::UnitCell &cell, const CellModel &model);
+} // namespace homespun::verification
