@@ -84,9 +84,9 @@ private:
   {
     for (const UnitCell &cell : cells())
       study_cell(cell);
-    options                          = options_of(asked, cells());
-    const std::vector<double> memory = peak_memory_of_ranks(communicator);
-    peak_memory                      = std::accumulate(memory.begin(), memory.end(), 0.);
+    options           = options_of(asked, cells());
+    const auto memory = peak_memory_of_ranks(communicator);
+    peak_memory       = std::accumulate(memory.begin(), memory.end(), 0.);
   }
 
   void study_cell(const UnitCell &cell)
@@ -97,9 +97,7 @@ private:
                                              output ? output->budget.get() : nullptr,
                                              output ? output->checks.get() : nullptr, communicator);
     progress.milestone(cell.name + ": homogenization");
-    CellNeeds needs;
-    needs.second_order           = laws_of_second_order(options);
-    needs.edges                  = has_edges(options);
+    const CellNeeds needs        = {laws_of_second_order(options), false, has_edges(options)};
     const AssessedCell &assessed = homogenize(cell, needs, verdicts);
     on_root(communicator,
             [&]()
@@ -110,12 +108,12 @@ private:
                 output->least_radius_of_cell[cell.name] =
                   roll.rolled->worst(tolerated_stiffening).radius;
             });
-    const meshes::HomogenizedCell homogenized =
-      homogenization::homogenized_cell(cell, assessed.result, provenance_line());
-    on_root(communicator, [&]() { fitted = modes_of_study(options, cell, homogenized, *output); });
-    edges = needs.edges ? *assessed.edges : KnownEdges();
+    const auto homogenized = homogenized_cell(cell, assessed.result, provenance_line());
+    edges                  = needs.edges ? *assessed.edges : KnownEdges();
     on_root(communicator,
-            [&]() {
+            [&]()
+            {
+              fitted = modes_of_study(options, cell, homogenized, *output);
               add(coarse_checks(cell, {homogenized, edges.edges ? &*edges.edges : nullptr}));
             });
     ladder = kept_ladder(cell, {homogenized, edges.edges}, communicator);
@@ -369,8 +367,8 @@ private:
   {
     add(study_verdicts(*output, options));
     output->write_gains();
-    std::vector<std::string> notes = notes_on_references(asked, cells());
-    const auto add_notes           = [&](const std::vector<std::string> &more)
+    auto notes           = notes_on_references(asked, cells());
+    const auto add_notes = [&](const auto &more)
     { notes.insert(notes.end(), more.begin(), more.end()); };
     for (const UnitCell &cell : cells())
       add_notes(notes_on_yarns(cell, options_of(asked, cell).references));

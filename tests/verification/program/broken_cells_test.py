@@ -47,7 +47,8 @@ class Cell:
         lines += ["$EndNodes", "$Elements", str(len(self.triangles))]
         lines += [f"{t} 2 2 {g} {g} {a + 1} {b + 1} {c + 1}"
                   for t, ((a, b, c), g) in enumerate(zip(self.triangles, self.groups), 1)]
-        (folder / f"{name}.msh").write_text("\n".join(lines + ["$EndElements", ""]), encoding="utf-8")
+        (folder / f"{name}.msh").write_text("\n".join(lines + ["$EndElements", ""]),
+                                            encoding="utf-8")
         return path
 
 
