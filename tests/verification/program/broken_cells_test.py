@@ -314,8 +314,7 @@ class BrokenCells(InFolder):
             with self.subTest(breaks.__name__):
                 cell = Cell()
                 breaks(cell)
-                result = run("homogenize", cell.write(self.folder), "--no-report", "--output",
-                             self.folder / "out")
+                result = run("homogenize", cell.write(self.folder), "--output", self.folder / "out")
                 self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
                 if breaks is not unglued_parts:  # told there by what has no image
                     self.assertIn(words, result.stderr)

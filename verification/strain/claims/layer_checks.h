@@ -52,6 +52,6 @@ meshes::CellEdges without_layers(const meshes::CellEdges &edges);
 /// Two claims: in the middle half of clamped edges, and of free ones, layers leave less than there
 /// is without them, on sheets of 8 x 8 cells under both strips, the worst edge of all that have
 /// layers. Where they leave more, 16 x 16 cells are asked: open where what they leave falls by more
-/// than a quarter, towards its first order. None where no edge has any.
+/// than a twentieth, towards its first order. None where no edge has any.
 std::vector<Verdict> layer_checks(const homogenization::UnitCell &cell, const CellModel &model);
 } // namespace homespun::verification
