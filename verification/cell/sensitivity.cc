@@ -148,14 +148,19 @@ std::vector<Sensitivity> sensitivities(const UnitCell &cell, const AssessedCell 
   return all;
 }
 
+bool has_scaling_checks(const UnitCell &cell)
+{
+  return std::none_of(cell.phases.begin(), cell.phases.end(),
+                      [](const Phase &phase)
+                      { return homogenization::constants_of(phase).empty(); });
+}
+
 std::vector<Verdict> scaling_checks(const UnitCell &cell, const AssessedCell &assessed)
 {
   // Sums of both sides have the same products of fields: what is left is their rounding.
   constexpr double rounding          = 1e-9;
   const std::vector<Sensitivity> all = sensitivities(cell, assessed);
-  const bool has_layers =
-    std::any_of(cell.phases.begin(), cell.phases.end(), [](const Phase &p) { return !!p.plate; });
-  if (all.empty() || has_layers)
+  if (all.empty() || !has_scaling_checks(cell))
     return {};
   const auto check = [&](const char *name, const auto of, const Eigen::Matrix3d &stiffness,
                          const double degree, const double limit)

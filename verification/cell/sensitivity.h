@@ -33,13 +33,16 @@ struct Sensitivity
 std::vector<Sensitivity> sensitivities(const homogenization::UnitCell &cell,
                                        const AssessedCell &assessed);
 
+/// Whether every phase is made of constants: one of layers has none.
+bool has_scaling_checks(const homogenization::UnitCell &cell);
+
 /// C^H and D^H are of degree 1 in all moduli together, and of degree 1 and 3 in all thicknesses
 /// together: with Euler's theorem
 ///   sum over moduli of p dC/dp = C,   sum of t dC/dt = C,   sum of p dD/dp = D,   sum of t dD/dt =
 ///   3 D,
 /// sums over all phases, of the derivatives above. A phase bends with t^2/12 times its plane
 /// stress stiffness in them, whatever D was made with.
-/// @return a claim for each stiffness that has a bracket; none where a phase has layers
+/// @return a claim for each stiffness that has a bracket; none without has_scaling_checks()
 std::vector<Verdict> scaling_checks(const homogenization::UnitCell &cell,
                                     const AssessedCell &assessed);
 

@@ -53,8 +53,12 @@ std::vector<OwedClaim> owed_of(const homogenization::UnitCell &cell,
   bracket.order          = options.solve.order;
   bracket.refine         = options.solve.refine;
   if (options.bars && (bracket.tolerance || too_large_text(cell, bracket).empty()))
+  {
     for (const char *id : {"bracket", "bending-bracket"})
       owed.push_back({id, {}});
+    if (has_scaling_checks(cell))
+      owed.push_back({"scaling", {}, "bracket.exists"});
+  }
   return owed;
 }
 } // namespace

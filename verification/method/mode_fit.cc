@@ -8,7 +8,6 @@
 #include "shell/membrane/corotational_energy.h"
 #include "verification/periodic_cell/halton.h"
 
-
 #include <algorithm>
 #include <array>
 #include <cmath>

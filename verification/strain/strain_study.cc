@@ -17,9 +17,9 @@
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
 #include "verification/strain/claims/coarse_checks.h"
+#include "verification/strain/claims/cubic_verdicts.h"
 #include "verification/strain/claims/self_checks.h"
 #include "verification/strain/claims/study_claims.h"
-#include "verification/strain/claims/table_verdicts.h"
 #include "verification/strain/kept_positions.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/run_time.h"
@@ -131,8 +131,8 @@ private:
                                                 cell.stiffness_of_phase(), communicator);
       study_load(cell, homogenized, load, *its);
     }
-    on_root(communicator, [&]()
-            { add(verdicts_of_cubic_energy(output->forces.rows(), cell.name, homogenized)); });
+    on_root(communicator,
+            [&]() { add(cubic_verdicts(output->forces.rows(), options, cell.name, homogenized)); });
     if (has_run_times(options))
     {
       of_sheet.reset();

@@ -9,6 +9,7 @@
 #include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
+#include "verification/strain/claims/cubic_verdicts.h"
 #include "verification/strain/claims/strain_verdicts.h"
 #include "verification/strain/claims/table_verdicts.h"
 #include "verification/strain/gains.h"
@@ -31,6 +32,8 @@ void add_case(const StrainStudyOptions &options, const Words &load, const std::s
   Words words        = load;
   words["reference"] = reference;
   owed.push_back({"equilibria", words});
+  if (has_cubic_claim(options, Load(load.at("load")), law_of(reference)))
+    owed.push_back({"cubic-energy", words});
   if (reference != name_of(Law::linear))
     owed.push_back({"minimum", words, "equilibria"});
   else if (!Load(load.at("load")).is_periodic() && has(options.methods, "affine"))

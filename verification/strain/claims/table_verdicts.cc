@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace homespun::verification
@@ -119,52 +118,6 @@ std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
       verdicts.push_back(
         judged("force-of-reference", {{"cell", of_case.cell}, {"load", of_case.load}},
                worst > 0. && worst <= 1. + 10. * solved_to ? Outcome::pass : Outcome::fail, worst));
-  }
-  return verdicts;
-}
-
-std::vector<Verdict> verdicts_of_cubic_energy(const std::vector<ForceRow> &rows,
-                                              const std::string &cell,
-                                              const meshes::HomogenizedCell &homogenized)
-{
-  std::vector<Verdict> verdicts;
-  for (const ForceRow &of_case : cases_of(rows))
-  {
-    const Load load(of_case.load);
-    const auto second_order = homogenized.second_order.find(of_case.reference);
-    if (of_case.cell != cell || !load.is_periodic() || load.has_free_sides() ||
-        second_order == homogenized.second_order.end())
-      continue;
-    std::map<double, std::pair<double, double>> of_strain; // resolved, coarse
-    for (const ForceRow &row : rows)
-      if (is_of_case(row, of_case) && row.method == "resolved")
-        of_strain[row.strain].first = row.per_width;
-      else if (is_of_case(row, of_case) && row.method == "coarse")
-        of_strain[row.strain].second = row.per_width;
-    std::vector<double> strains, beyond, rounding; // the latter over s²
-    for (const auto &[strain, forces] : of_strain)
-      if (std::isfinite(forces.first) && std::isfinite(forces.second) &&
-          (strains.empty() || (strains.size() == 1 && strain >= 2. * strains[0])))
-      {
-        strains.push_back(strain);
-        beyond.push_back((forces.first - forces.second) / (strain * strain));
-        rounding.push_back(solved_to * std::abs(forces.first) / (strain * strain));
-      }
-    if (beyond.size() < 2)
-      continue;
-    const Eigen::Matrix2d F = load.gradient(1.);
-    const Eigen::Vector3d unit(F(0, 0) - 1., F(1, 1) - 1., F(0, 1) + F(1, 0));
-    const double expected = 3. * second_order->second.energy.value(unit),
-                 scale    = unit.dot(homogenized.stiffness * unit),
-                 change   = std::abs(beyond[1] - beyond[0]);
-    const Words words = {{"cell", cell}, {"load", of_case.load}, {"reference", of_case.reference}};
-    Verdict verdict   = at_most("cubic-energy", words, std::abs(beyond[0] - expected) / scale,
-                                (change + rounding[0] + rounding[1]) / scale);
-    // Where it still changes, as beyond the loss of a law, these strains are not small.
-    if (verdict.outcome == Outcome::fail &&
-        change > 0.1 * std::max(std::abs(beyond[0]), std::abs(beyond[1])))
-      verdict.outcome = Outcome::inconclusive;
-    verdicts.push_back(verdict);
   }
   return verdicts;
 }

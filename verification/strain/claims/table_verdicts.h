@@ -3,7 +3,6 @@
 // forces and of nested discretizations, and that a file gives back what was written.
 #pragma once
 
-#include "meshes/plain/homogenized_cell.h"
 #include "verification/record/table.h"
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_tables.h"
@@ -28,16 +27,6 @@ std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow>
 /// forces.csv, for every cell and sheet load in linear theory: the reference pulls back, with a
 /// force no larger than that of the affine motion, which is one of the motions it may choose.
 std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows);
-
-/// forces.csv, for every law under which the cell has a cubic energy W3 and every load that gives
-/// the motion of an infinite cloth: the stress that the references have beyond that of C^H,
-///   (P_resolved − P_coarse) : dF/ds = 3 W3(e) s² + O(s³),   E = e s + O(s²),
-/// at the smallest strain s1 and the next one s2 >= 2 s1: over s1² it is 3 W3(e) but for as much as
-/// it changes until s2, and what the references leave. Farther off it is open while that change is
-/// more than a tenth of it, as beyond the loss of a law.
-std::vector<Verdict> verdicts_of_cubic_energy(const std::vector<ForceRow> &rows,
-                                              const std::string &cell,
-                                              const meshes::HomogenizedCell &homogenized);
 
 /// How many of the rows a file gives back otherwise, to the last bit, or not at all.
 /// @throws BadInput as read_table()

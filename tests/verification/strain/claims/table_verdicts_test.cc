@@ -78,37 +78,6 @@ TEST(bound_table_verdicts, no_coarse_cloth_that_may_be_the_base_is_closer_than_t
   EXPECT_EQ(verdict_of_bases(gains, rows).value, 1.);
 }
 
-TEST(exact_table_verdicts, stress_beyond_linear_is_that_of_the_cubic_energy)
-{
-  // W = C/2 E11² + T/6 E11³ + E11⁴: P = C s + T/2 s² + 4 s³, where the coarse cloth has C s.
-  const double C = 1000., T = 600.;
-  meshes::HomogenizedCell cell;
-  cell.stiffness                                  = C * Eigen::Matrix3d::Identity();
-  cell.second_order["biot"].energy.derivatives(0) = T;
-  const auto rows_of                              = [&](const double s, const double quadratic)
-  {
-    const double beyond        = quadratic * s * s + 4. * s * s * s;
-    std::vector<ForceRow> rows = {{"cell", "periodic-11", s, "biot", "resolved"},
-                                  {"cell", "periodic-11", s, "biot", "coarse"}};
-    rows[0].per_width          = C * s + beyond;
-    rows[1].per_width          = C * s;
-    return rows;
-  };
-  const auto judged = [&](const double quadratic)
-  {
-    std::vector<ForceRow> rows = rows_of(0.01, quadratic);
-    for (const ForceRow &row : rows_of(0.001, quadratic))
-      rows.push_back(row);
-    return verdicts_of_cubic_energy(rows, "cell", cell);
-  };
-  ASSERT_EQ(judged(T / 2.).size(), 1u);
-  EXPECT_EQ(judged(T / 2.)[0].outcome, Outcome::pass);
-  EXPECT_EQ(judged(1.01 * T / 2.)[0].outcome, Outcome::fail);
-  EXPECT_TRUE(verdicts_of_cubic_energy(rows_of(0.01, T / 2.), "cell", cell).empty());
-  cell.second_order.clear();
-  EXPECT_TRUE(judged(T / 2.).empty());
-}
-
 TEST(bound_table_verdicts, norms_stand_in_their_order)
 {
   // Distances 1, 2, 3.

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/claims/cubic_verdicts.h"
+
+#include "verification/law/laws.h"
+#include "verification/record/claim.h"
+#include "verification/strain/strain_comparison.h"
+#include "verification/strain/strain_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+/// The smallest strain and the next one that is at least twice as large; none above 1 %.
+std::vector<double> small_strains(const std::vector<double> &asked)
+{
+  std::vector<double> two;
+  for (const double strain : asked)
+    if (two.size() < 2 && strain < 0.0101 && (two.empty() || strain >= 2. * two[0]))
+      two.push_back(strain);
+  return two.size() == 2 ? two : std::vector<double>();
+}
+
+/// The stress beyond that of C^H over strain squared; not a number where it was not reached.
+double beyond_linear(const std::vector<ForceRow> &rows, const StrainLevel &level)
+{
+  double resolved = std::numeric_limits<double>::quiet_NaN(), coarse = resolved;
+  for (const ForceRow &row : rows)
+    if (row.cell == level.cell && row.load == level.load && row.reference == name_of(level.law) &&
+        row.strain == level.strain)
+    {
+      if (row.method == "resolved")
+        resolved = row.per_width;
+      if (row.method == "coarse")
+        coarse = row.per_width;
+    }
+  return (resolved - coarse) / (level.strain * level.strain);
+}
+} // namespace
+
+bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, const Law law)
+{
+  const std::vector<Law> laws = laws_of_second_order(options);
+  return load.is_periodic() && !load.has_free_sides() && !small_strains(options.strains).empty() &&
+         std::find(laws.begin(), laws.end(), law) != laws.end();
+}
+
+std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
+                                    const StrainStudyOptions &options, const std::string &cell,
+                                    const meshes::HomogenizedCell &homogenized)
+{
+  constexpr double safety = 2., smallness = 0.1;
+  const std::vector<double> strains = small_strains(options.strains);
+  std::vector<Verdict> verdicts;
+  for (const std::string &name : options.loads)
+    for (const std::string &reference : options.references)
+    {
+      const Load load(name);
+      const Law law = law_of(reference);
+      if (!has_cubic_claim(options, load, law))
+        continue;
+      const Eigen::Matrix2d F = load.gradient(1.);
+      const Eigen::Vector3d unit(F(0, 0) - 1., F(1, 1) - 1., F(0, 1) + F(1, 0));
+      const double scale  = unit.dot(homogenized.stiffness * unit),
+                   first  = beyond_linear(rows, {cell, name, law, strains[0]}),
+                   second = beyond_linear(rows, {cell, name, law, strains[1]}),
+                   slope  = (second - first) / (strains[1] - strains[0]),
+                   limit  = safety * std::abs(slope * strains[0]) / scale + solved_to / strains[0],
+                   off    = first - 3. * homogenized.second_order.at(reference).energy.value(unit);
+      Verdict verdict =
+        at_most("cubic-energy", {{"cell", cell}, {"load", name}, {"reference", reference}},
+                std::abs(off) / scale, limit);
+      if (!(limit <= smallness))
+        verdict.outcome = Outcome::inconclusive;
+      verdicts.push_back(verdict);
+    }
+  return verdicts;
+}
+} // namespace homespun::verification

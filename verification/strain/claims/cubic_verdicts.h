@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The cubic energy of a cell, which the homogenizer has by perturbation, held against the stress of
+// the resolved infinite cloth: two programs for one coefficient.
+#pragma once
+
+#include "meshes/plain/homogenized_cell.h"
+#include "verification/record/verdict.h"
+#include "verification/strain/strain_options.h"
+#include "verification/strain/strain_tables.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Whether a study asks for the claim below: the load gives the motion of an infinite cloth,
+/// methods have the cubic energy W3 of the law, and two strains up to 1 % lie apart by a factor
+/// of 2.
+bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, Law law);
+
+/// forces.csv: the stress that the references of a cell have beyond that of C^H,
+///   (P_resolved − P_coarse) : dF/ds = 3 W3(e) s² + O(s³),   E = e s + O(s²),
+/// at the smallest strain s1, over s1². The term of third order is what extrapolation from s1 and
+/// the next strain s2 >= 2 s1 to zero finds, and counts twice. Open where that is more than a tenth
+/// of the stiffness, as beyond the loss of a law, or where a strain was not reached.
+std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
+                                    const StrainStudyOptions &options, const std::string &cell,
+                                    const meshes::HomogenizedCell &homogenized);
+} // namespace homespun::verification
