@@ -131,8 +131,7 @@ private:
                                                 cell.stiffness_of_phase(), communicator);
       study_load(cell, homogenized, load, *its);
     }
-    on_root(communicator,
-            [&]() { add(cubic_verdicts(output->forces.rows(), options, cell.name, homogenized)); });
+    on_root(communicator, [&]() { add(cubic_verdicts(*output, options, cell.name, homogenized)); });
     if (has_run_times(options))
     {
       of_sheet.reset();

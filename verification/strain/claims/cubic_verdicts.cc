@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/cubic_verdicts.h"
 
+#include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
 #include "verification/strain/strain_comparison.h"
-#include "verification/strain/strain_output.h"
+#include "verification/strain/validity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,10 +50,11 @@ bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, const 
 }
 
 std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
+                                    const std::vector<LevelRow> &levels,
                                     const StrainStudyOptions &options, const std::string &cell,
                                     const meshes::HomogenizedCell &homogenized)
 {
-  constexpr double safety = 2., smallness = 0.1;
+  constexpr double smallness        = 0.1;
   const std::vector<double> strains = small_strains(options.strains);
   std::vector<Verdict> verdicts;
   for (const std::string &name : options.loads)
@@ -68,12 +70,13 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
                    first  = beyond_linear(rows, {cell, name, law, strains[0]}),
                    second = beyond_linear(rows, {cell, name, law, strains[1]}),
                    slope  = (second - first) / (strains[1] - strains[0]),
-                   limit  = safety * std::abs(slope * strains[0]) / scale + solved_to / strains[0],
-                   off    = first - 3. * homogenized.second_order.at(reference).energy.value(unit);
+                   limit  = safety_unconfirmed * std::abs(slope * strains[0]) / scale +
+                           solved_to / strains[0],
+                   off = first - 3. * homogenized.second_order.at(reference).energy.value(unit);
       Verdict verdict =
         at_most("cubic-energy", {{"cell", cell}, {"load", name}, {"reference", reference}},
                 std::abs(off) / scale, limit);
-      if (!(limit <= smallness))
+      if (!(limit <= smallness) || strains[1] > elliptic_up_to(levels, cell, name, reference))
         verdict.outcome = Outcome::inconclusive;
       verdicts.push_back(verdict);
     }

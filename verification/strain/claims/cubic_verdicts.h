@@ -6,7 +6,7 @@
 #include "meshes/plain/homogenized_cell.h"
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_options.h"
-#include "verification/strain/strain_tables.h"
+#include "verification/strain/strain_output.h"
 
 #include <string>
 #include <vector>
@@ -21,9 +21,20 @@ bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, Law la
 /// forces.csv: the stress that the references of a cell have beyond that of C^H,
 ///   (P_resolved − P_coarse) : dF/ds = 3 W3(e) s² + O(s³),   E = e s + O(s²),
 /// at the smallest strain s1, over s1². The term of third order is what extrapolation from s1 and
-/// the next strain s2 >= 2 s1 to zero finds, and counts twice. Open where that is more than a tenth
-/// of the stiffness, as beyond the loss of a law, or where a strain was not reached.
+/// the next strain s2 >= 2 s1 to zero finds, times the factor of safety of two levels. Open where
+/// that is more than a tenth of the stiffness, where the law is lost up to s2, or where a strain
+/// was not reached.
 std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
+                                    const std::vector<LevelRow> &levels,
                                     const StrainStudyOptions &options, const std::string &cell,
                                     const meshes::HomogenizedCell &homogenized);
+
+/// The same of the tables of a study.
+inline std::vector<Verdict> cubic_verdicts(const StrainOutput &output,
+                                           const StrainStudyOptions &options,
+                                           const std::string &cell,
+                                           const meshes::HomogenizedCell &homogenized)
+{
+  return cubic_verdicts(output.forces.rows(), output.levels.rows(), options, cell, homogenized);
+}
 } // namespace homespun::verification

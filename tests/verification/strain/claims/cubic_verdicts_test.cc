@@ -10,7 +10,8 @@ namespace
 {
 /// What is said of P = C s + T/2 s² + q s³, where the coarse cloth has C s, by a cell that says
 /// another T.
-Outcome judged(const double said_T, const double q, const std::vector<double> &strains)
+Outcome judged(const double said_T, const double q, const std::vector<double> &strains,
+               const std::vector<LevelRow> &levels = {})
 {
   const double C = 1000., T = 600.;
   meshes::HomogenizedCell cell;
@@ -29,7 +30,7 @@ Outcome judged(const double said_T, const double q, const std::vector<double> &s
       rows.back().per_width =
         C * s + (rows.back().method == "resolved" ? T / 2. * s * s + q * s * s * s : 0.);
     }
-  const std::vector<Verdict> verdicts = cubic_verdicts(rows, options, "cell", cell);
+  const std::vector<Verdict> verdicts = cubic_verdicts(rows, levels, options, "cell", cell);
   EXPECT_EQ(verdicts.size(), 1u); // neither in linear theory nor of sheets
   return verdicts.at(0).outcome;
 }
@@ -51,4 +52,6 @@ TEST(bound_cubic_verdicts, strains_that_are_not_small_or_not_reached_decide_noth
   EXPECT_EQ(judged(600., 1e6, {0.001, 0.002}), Outcome::inconclusive);
   EXPECT_EQ(judged(6., 1e6, {0.001, 0.002}), Outcome::inconclusive);
   EXPECT_EQ(judged(600., 4., {0.001, 0.01}), Outcome::inconclusive);
+  LevelRow lost = {"cell", "periodic-11", "biot", 0.002, "soft", 8, 1, -0.1};
+  EXPECT_EQ(judged(590., 4., {0.001, 0.002}, {lost}), Outcome::inconclusive);
 }
