@@ -4,7 +4,6 @@
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/symmetric_eigen.h"
 
-
 #include <algorithm>
 #include <limits>
 
@@ -12,8 +11,6 @@ namespace homespun::verification
 {
 using homogenization::UnitCell;
 
-namespace
-{
 double contrast_of(const std::vector<Eigen::Matrix3d> &stiffnesses)
 {
   double least = std::numeric_limits<double>::infinity(), most = 0.;
@@ -25,7 +22,6 @@ double contrast_of(const std::vector<Eigen::Matrix3d> &stiffnesses)
   }
   return most / least;
 }
-} // namespace
 
 double algebraic_limit(const UnitCell &cell, const double rows)
 {

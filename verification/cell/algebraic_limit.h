@@ -6,6 +6,9 @@
 
 namespace homespun::verification
 {
+/// Largest over smallest eigenvalue of plane stiffnesses: of phases, or of one, its anisotropy.
+double contrast_of(const std::vector<Eigen::Matrix3d> &stiffnesses);
+
 /// What round-off and the solver may do to a C^H whose discrete problem is solved exactly by
 /// theory, as the largest relative difference of an energy.
 ///

@@ -15,8 +15,8 @@ namespace homespun::verification
 struct CellNeeds
 {
   std::vector<meshes::Law> second_order; ///< whose quadratic modes and cubic energy
-  bool bending = false;                  ///< D^H and deflections
   bool edges   = false;                  ///< slip, tension and modes of its edges
+  bool bending = false;                  ///< D^H and deflections
 };
 
 /// Cells by P1 on their given mesh, the discretization of the fine reference, so that a study shows

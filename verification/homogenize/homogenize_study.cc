@@ -57,7 +57,10 @@ std::vector<OwedClaim> owed_of(const homogenization::UnitCell &cell,
     for (const char *id : {"bracket", "bending-bracket"})
       owed.push_back({id, {}});
     if (has_scaling_checks(cell))
-      owed.push_back({"scaling", {}, "bracket.exists"});
+    {
+      owed.push_back({"scaling", {{"stiffness", "C^H"}}, "bracket.exists"});
+      owed.push_back({"scaling", {{"stiffness", "D^H"}}, "bending-bracket.exists"});
+    }
   }
   return owed;
 }

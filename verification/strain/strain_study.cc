@@ -84,9 +84,9 @@ private:
   {
     for (const UnitCell &cell : cells())
       study_cell(cell);
-    options           = options_of(asked, cells());
-    const auto memory = peak_memory_of_ranks(communicator);
-    peak_memory       = std::accumulate(memory.begin(), memory.end(), 0.);
+    options                          = options_of(asked, cells());
+    const std::vector<double> memory = peak_memory_of_ranks(communicator);
+    peak_memory                      = std::accumulate(memory.begin(), memory.end(), 0.);
   }
 
   void study_cell(const UnitCell &cell)
@@ -97,7 +97,7 @@ private:
                                              output ? output->budget.get() : nullptr,
                                              output ? output->checks.get() : nullptr, communicator);
     progress.milestone(cell.name + ": homogenization");
-    const CellNeeds needs        = {laws_of_second_order(options), false, has_edges(options)};
+    const CellNeeds needs        = {laws_of_second_order(options), has_edges(options)};
     const AssessedCell &assessed = homogenize(cell, needs, verdicts);
     on_root(communicator,
             [&]()
@@ -110,6 +110,7 @@ private:
             });
     const auto homogenized = homogenized_cell(cell, assessed.result, provenance_line());
     edges                  = needs.edges ? *assessed.edges : KnownEdges();
+    progress.begin(cell.name + ": coarse cloths and layers of small sheets");
     on_root(communicator,
             [&]()
             {
@@ -131,7 +132,7 @@ private:
                                                 cell.stiffness_of_phase(), communicator);
       study_load(cell, homogenized, load, *its);
     }
-    on_root(communicator, [&]() { add(cubic_verdicts(*output, options, cell.name, homogenized)); });
+    on_root(communicator, [&]() { add(cubic_verdicts(*output, options, cell, homogenized)); });
     if (has_run_times(options))
     {
       of_sheet.reset();
@@ -366,8 +367,8 @@ private:
   {
     add(study_verdicts(*output, options));
     output->write_gains();
-    auto notes           = notes_on_references(asked, cells());
-    const auto add_notes = [&](const auto &more)
+    std::vector<std::string> notes = notes_on_references(asked, cells());
+    const auto add_notes           = [&](const std::vector<std::string> &more)
     { notes.insert(notes.end(), more.begin(), more.end()); };
     for (const UnitCell &cell : cells())
       add_notes(notes_on_yarns(cell, options_of(asked, cell).references));

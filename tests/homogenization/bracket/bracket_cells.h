@@ -7,7 +7,6 @@
 #include "meshes/plain/symmetric_eigen.h"
 #include "tests/meshes/plain/shapes.h"
 
-
 #include <functional>
 
 namespace homespun::tests

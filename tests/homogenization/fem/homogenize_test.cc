@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "meshes/plain/symmetric_eigen.h"
 #include "tests/homogenization/cell/cells.h"
 
-#include "meshes/plain/symmetric_eigen.h"
 #include <gtest/gtest.h>
 
 #include <cmath>

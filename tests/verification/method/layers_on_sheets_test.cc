@@ -145,6 +145,31 @@ TEST(tripwire_layer_checks, layers_of_another_sign_or_edge_fail)
   EXPECT_EQ(outcomes(without_layers(edges)), Outcomes());
 }
 
+TEST(exact_layer_checks, edges_where_there_is_nothing_to_remove_are_not_judged)
+{
+  const auto ids = [](const double poisson, const double slant)
+  {
+    meshes::Lattice lattice;
+    lattice.vectors << 1., 0., slant, 0.9;
+    const homogenization::UnitCell cell =
+      tests::cell_of(lattice, 8, 8,
+                     {homogenization::isotropic("soft", 1., poisson, 1., 1.),
+                      homogenization::isotropic("hard", 10., poisson, 1., 1.)},
+                     tests::halves);
+    const meshes::HomogenizedCell homogenized = tests::homogenized(cell);
+    const CellEdges edges                     = homogenization::edges_of(cell, {});
+    std::vector<std::string> found;
+    for (const Verdict &one : layer_checks(cell, {homogenized, &edges}))
+      if (one.outcome != Outcome::inconclusive)
+        found.push_back(one.id + (one.outcome == Outcome::pass ? "" : " fails"));
+    return found;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(ids(0.3, 0.), (Ids{"layers.clamped", "layers.free"}));
+  EXPECT_EQ(ids(0.3, 0.5), Ids{"layers.clamped"});
+  EXPECT_EQ(ids(0., 0.), Ids());
+}
+
 TEST(exact_coarse_checks, coarse_cloths_of_a_cell_without_symmetry_pass_with_edges_and_without)
 {
   const homogenization::UnitCell cell       = lopsided();

@@ -162,6 +162,17 @@ class Converge(InFolder):
         self.assertEqual(len([one for one in claims if one["id"] == "closer-when-bent"]), 10)
         self.assertEqual([one for one in claims if one["verdict"] == "FAIL"], [])
 
+    def test_of_a_cell_with_holes_all_terms_are_judged(self):
+        cell = broken_cells_test.Cell()
+        cell.keep(lambda i, j: (i, j) != (3, 3))
+        result = run("converge", cell.write(self.folder), "--quick", "--studies", "bending",
+                     "--no-report", "--output", self.folder / "out")
+        self.assertIn(result.returncode, (0, 4), result.stdout + result.stderr)
+        levels = [row for row in rows_of(self.folder / "out" / "converge.csv")
+                  if row["kind"] == "level"]
+        self.assertEqual({row["quantity"].split(":")[0] for row in levels},
+                         {"affine", "localized", "affine+edges", "full"})
+
     def claims_of(self, cell, study):
         """Of one study of a cell, its claims, and the rows of its levels."""
         result = run("converge", cell, "--quick", "--studies", study, "--no-report", "--quiet",

@@ -26,7 +26,7 @@ class Ranks(InFolder):
         return json.loads((output / "homogenize.json").read_text())["C"]
 
     def test_stiffness_agrees_on_one_two_and_four_ranks(self):
-        for cell, order, numbers in ((LAYERED, 1, (2,)), (LAYERED, 2, (2,)), (THREE, 2, (2, 4))):
+        for cell, order, numbers in ((LAYERED, 1, (2, 4)), (LAYERED, 2, (2,)), (THREE, 2, (2, 4))):
             alone = self.stiffness(cell, order, 1)
             largest = max(abs(value) for row in alone for value in row)
             for ranks in numbers:

@@ -12,7 +12,8 @@ namespace homespun::verification
 {
 /// - on 4 x 4 cells, under both strips, the coarse cloth with six-node triangles and the terms of
 ///   edges that are known comes to its linear theory: the difference of positions over strain falls
-///   with the strain, of order 1; open where it finds no equilibrium
+///   with the strain, of order 1; open where it finds no equilibrium, and where C^H is ten
+///   thousand times stiffer in one direction than in another
 /// - six-node triangles of C^H have the energy of a quadratic displacement in closed form
 /// - those of layer_checks(), where edges are known
 std::vector<Verdict> coarse_checks(const homogenization::UnitCell &cell,

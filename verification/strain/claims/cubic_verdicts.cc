@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/cubic_verdicts.h"
 
+#include "verification/cell/algebraic_limit.h"
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
@@ -51,11 +52,14 @@ bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, const 
 
 std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
                                     const std::vector<LevelRow> &levels,
-                                    const StrainStudyOptions &options, const std::string &cell,
+                                    const StrainStudyOptions &options,
+                                    const homogenization::UnitCell &cell,
                                     const meshes::HomogenizedCell &homogenized)
 {
   constexpr double smallness        = 0.1;
   const std::vector<double> strains = small_strains(options.strains);
+  const double unsolved =
+    solved_to * std::sqrt(contrast_of(cell.stiffness_of_phase()) * 0.5 * cell.mesh.n_triangles());
   std::vector<Verdict> verdicts;
   for (const std::string &name : options.loads)
     for (const std::string &reference : options.references)
@@ -67,16 +71,16 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
       const Eigen::Matrix2d F = load.gradient(1.);
       const Eigen::Vector3d unit(F(0, 0) - 1., F(1, 1) - 1., F(0, 1) + F(1, 0));
       const double scale  = unit.dot(homogenized.stiffness * unit),
-                   first  = beyond_linear(rows, {cell, name, law, strains[0]}),
-                   second = beyond_linear(rows, {cell, name, law, strains[1]}),
+                   first  = beyond_linear(rows, {cell.name, name, law, strains[0]}),
+                   second = beyond_linear(rows, {cell.name, name, law, strains[1]}),
                    slope  = (second - first) / (strains[1] - strains[0]),
                    limit  = safety_unconfirmed * std::abs(slope * strains[0]) / scale +
-                           solved_to / strains[0],
+                           unsolved / strains[0],
                    off = first - 3. * homogenized.second_order.at(reference).energy.value(unit);
       Verdict verdict =
-        at_most("cubic-energy", {{"cell", cell}, {"load", name}, {"reference", reference}},
+        at_most("cubic-energy", {{"cell", cell.name}, {"load", name}, {"reference", reference}},
                 std::abs(off) / scale, limit);
-      if (!(limit <= smallness) || strains[1] > elliptic_up_to(levels, cell, name, reference))
+      if (!(limit <= smallness) || strains[1] > elliptic_up_to(levels, cell.name, name, reference))
         verdict.outcome = Outcome::inconclusive;
       verdicts.push_back(verdict);
     }

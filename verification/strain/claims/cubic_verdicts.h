@@ -3,6 +3,7 @@
 // the resolved infinite cloth: two programs for one coefficient.
 #pragma once
 
+#include "homogenization/cell/unit_cell.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_options.h"
@@ -23,16 +24,18 @@ bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, Law la
 /// at the smallest strain s1, over s1². The term of third order is what extrapolation from s1 and
 /// the next strain s2 >= 2 s1 to zero finds, times the factor of safety of two levels. Open where
 /// that is more than a tenth of the stiffness, where the law is lost up to s2, or where a strain
-/// was not reached.
+/// was not reached. The forces r that the references leave, 1e-9 of all, change a stress by up to
+/// r.u, hence by sqrt(contrast) rows 1e-9 of it, with so many rows of triangles along a cell.
 std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
                                     const std::vector<LevelRow> &levels,
-                                    const StrainStudyOptions &options, const std::string &cell,
+                                    const StrainStudyOptions &options,
+                                    const homogenization::UnitCell &cell,
                                     const meshes::HomogenizedCell &homogenized);
 
 /// The same of the tables of a study.
 inline std::vector<Verdict> cubic_verdicts(const StrainOutput &output,
                                            const StrainStudyOptions &options,
-                                           const std::string &cell,
+                                           const homogenization::UnitCell &cell,
                                            const meshes::HomogenizedCell &homogenized)
 {
   return cubic_verdicts(output.forces.rows(), output.levels.rows(), options, cell, homogenized);

@@ -15,8 +15,7 @@ namespace homespun::verification
 /// strain.csv: mean <= root mean square <= largest distance, in every row.
 Verdict verdict_of_norms(const std::vector<StrainRow> &rows);
 
-/// gains.csv: the error of a row's base is not larger than that of its method without microscopic
-/// displacement or, where it has six-node coarse triangles, of `affine+p2`.
+/// gains.csv: a row's base is one that may_be_base(), and none of those has a smaller error.
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows);
 
 /// uncertainty.csv, for every cell and sheet load in linear theory: the force, twice the energy

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/cubic_verdicts.h"
 
+#include "tests/homogenization/cell/cells.h"
+
 #include <gtest/gtest.h>
 
 using namespace homespun;
@@ -14,9 +16,12 @@ Outcome judged(const double said_T, const double q, const std::vector<double> &s
                const std::vector<LevelRow> &levels = {})
 {
   const double C = 1000., T = 600.;
-  meshes::HomogenizedCell cell;
-  cell.stiffness                                  = C * Eigen::Matrix3d::Identity();
-  cell.second_order["biot"].energy.derivatives(0) = said_T;
+  meshes::HomogenizedCell homogenized;
+  homogenized.stiffness                                  = C * Eigen::Matrix3d::Identity();
+  homogenized.second_order["biot"].energy.derivatives(0) = said_T;
+  homogenization::UnitCell cell =
+    tests::cell_of(tests::square_lattice(1.), 4, 4, tests::soft_and_hard(), tests::halves);
+  cell.name = "cell";
   StrainStudyOptions options;
   options.strains    = {0.001, 0.002, 0.01, 0.1};
   options.loads      = {"periodic-11", "strip-1"};
@@ -30,7 +35,7 @@ Outcome judged(const double said_T, const double q, const std::vector<double> &s
       rows.back().per_width =
         C * s + (rows.back().method == "resolved" ? T / 2. * s * s + q * s * s * s : 0.);
     }
-  const std::vector<Verdict> verdicts = cubic_verdicts(rows, levels, options, "cell", cell);
+  const std::vector<Verdict> verdicts = cubic_verdicts(rows, levels, options, cell, homogenized);
   EXPECT_EQ(verdicts.size(), 1u); // neither in linear theory nor of sheets
   return verdicts.at(0).outcome;
 }
