@@ -112,7 +112,7 @@ std::vector<Verdict> checks_of(const CellBending &bending, const BracketOptions 
                                                 order_violation(found.stiffness, found.upper)),
                                          0.)};
   if (checks.front().outcome == Outcome::pass)
-    checks.push_back(check_of_moduli("D^H", found.stiffness.inverse(), found.lower, found.upper));
+    checks.push_back(check_of_moduli("D^H", found.stiffness, found.lower, found.upper));
   if (options.tolerance)
     checks.push_back(at_most("bending-bracket.tolerance", {}, found.width, *options.tolerance));
   return checks;

@@ -197,7 +197,7 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
   checks.push_back(at_most("bracket.widest-load", {}, gap,
                            found.width + 64. * std::numeric_limits<double>::epsilon()));
   if (checks.front().outcome == Outcome::pass)
-    checks.push_back(check_of_moduli("C^H", found.stiffness.inverse(), found.lower, found.upper));
+    checks.push_back(check_of_moduli("C^H", found.stiffness, found.lower, found.upper));
   // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does
   // not. That C lies above C_lower follows from both.
   const double difference = energy_difference(*bracket.on_given_mesh, stiffness), most = 1e-6;

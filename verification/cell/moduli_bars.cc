@@ -16,6 +16,11 @@ std::array<double, 5> moduli_of(const Eigen::Matrix3d &S)
 {
   return {1. / S(0, 0), 1. / S(1, 1), 1. / S(2, 2), -S(0, 1) / S(0, 0), -S(0, 1) / S(1, 1)};
 }
+
+std::array<double, 5> as_array(const homogenization::EngineeringConstants &of)
+{
+  return {of.E1, of.E2, of.G12, of.nu12, of.nu21};
+}
 } // namespace
 
 Eigen::Matrix3d compliance_bars(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
@@ -41,15 +46,15 @@ homogenization::EngineeringConstants bars_of_moduli(const Eigen::Matrix3d &S,
   return {of_modulus(0), of_modulus(1), of_modulus(2), of_ratio(0), of_ratio(1)};
 }
 
-Verdict check_of_moduli(const std::string &stiffness, const Eigen::Matrix3d &S,
+Verdict check_of_moduli(const std::string &name, const Eigen::Matrix3d &stiffness,
                         const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
 {
-  const Eigen::Matrix3d bars                    = compliance_bars(lower, upper);
-  const homogenization::EngineeringConstants of = bars_of_moduli(S, bars);
-  const std::array<double, 5> said = {of.E1, of.E2, of.G12, of.nu12, of.nu21}, here = moduli_of(S);
-  constexpr double round_off = 16. * std::numeric_limits<double>::epsilon();
-  double reach               = 0.;
-  const auto ask             = [&](const Eigen::Matrix3d &compliance)
+  const Eigen::Matrix3d bars = compliance_bars(lower, upper), S = stiffness.inverse();
+  const std::array<double, 5> said = as_array(bars_of_moduli(S, bars)),
+                              here = as_array(homogenization::engineering_constants(stiffness));
+  constexpr double round_off       = 16. * std::numeric_limits<double>::epsilon();
+  double reach                     = 0.;
+  const auto ask                   = [&](const Eigen::Matrix3d &compliance)
   {
     const std::array<double, 5> moduli = moduli_of(compliance);
     for (std::size_t k = 0; k < said.size(); ++k)
@@ -69,6 +74,6 @@ Verdict check_of_moduli(const std::string &stiffness, const Eigen::Matrix3d &S,
   }
   for (const Eigen::Matrix3d *const side : {&lower, &upper})
     ask(homogenization::inverse_of(*side).value);
-  return at_most("bracket.moduli", {{"stiffness", stiffness}}, reach, 1. + 1e-9);
+  return at_most("bracket.moduli", {{"stiffness", name}}, reach, 1. + 1e-9);
 }
 } // namespace homespun::verification

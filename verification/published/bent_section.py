@@ -3,6 +3,7 @@
 from statistics import median
 
 from numbers_of_page import table, three, with_bar
+from readme_numbers import once
 
 HEADING = "## Sheets that bend\n"
 ABOUT = """\
@@ -41,6 +42,7 @@ def errors(rows):
 
 def in_short(rows, what):
     """How many rows are decided, the median gain, and each loss by name."""
+    rows = once(rows)
     count = {word: sum(OUTCOMES[row["full_against_base"]] == word for row in rows)
              for word in OUTCOMES.values()}
     gains = [float(row["base"]) / float(row["full"]) for row in rows if row["full"]]
@@ -49,7 +51,7 @@ def in_short(rows, what):
     alone = [f"`{row['cell']}` {row['load']}" for row in rows
              if row["localized_against_affine"] == "FAIL"]
     return (
-        f"{what.capitalize()}s, {len(rows)} rows: `full` is nearer than its base in"
+        f"{what.capitalize()}s, {len(rows)} cases: `full` is nearer than its base in"
         f" {count['nearer']}, farther in {count['farther']}, open in {count['open']}; base over"
         f" `full` has the median {three(str(median(gains)))}. Farther:"
         f" {', '.join(lost) or 'none'}. The deflection of the cell without terms of edges is"

@@ -24,7 +24,7 @@ COMPARED = [
     "--no-runtime",
     "--no-report",
 ]
-METHODS = "affine,affine+p2,localized,full-micro,full"
+METHODS = "affine,affine+p2,localized,localized+p2,full-p2-micro,full-p2,full-micro,full"
 ENDED = (0, 1, 4)  # a claim that failed or is open is a result
 
 

@@ -8,6 +8,15 @@ from read.schema import claims, loads, main_method, main_reference
 from read.stored import BadResults
 
 STRAINS = (0.01, 0.1)
+METHODS = {  # column: method
+    "affine": "affine",
+    "base": "base",
+    "localized": "localized",
+    "localized_p2": "localized+p2",
+    "full_linear_base": "full-p2-micro",
+    "full_linear": "full-p2",
+    "full": "full",
+}
 CLAIMS = {  # column, and the claim that stands in it: PASS, FAIL or INCONCLUSIVE
     "full_against_base": ("closer-than.base", "full"),
     "localized_against_affine": ("closer-than.affine", "localized"),
@@ -56,8 +65,8 @@ def errors(results):
             **words,
             "cells_per_side": next(row["cells"] for row in some.values() if row),
             **{
-                name + ending: per_strain(some.get(name), column)
-                for name in ("affine", "base", "localized", "full")
+                name + ending: per_strain(some.get(method), column)
+                for name, method in METHODS.items()
                 for ending, column in (("", "error_mean_m"), ("_bar", "error_bar_m"))
             },
             "base_method": gain.get("base", ""),

@@ -7,7 +7,7 @@ A number is marked by a comment just before it, which names table, row and colum
 
 A row is named by its first columns, joined by `/`. With `*` the name stands for several rows, and
 the column ends in `:min`, `:max`, `:median` (of the rows in which the law holds), `:sum` or
-`:count`. `A/B` in place of a column is the ratio of two, `A>B:count` the number of rows where one
+`:count`; what a row says again of a cell that is the same along both axes counts once. `A/B` in place of a column is the ratio of two, `A>B:count` the number of rows where one
 is larger, `A=TEXT:count` of those where it is a text. Names with blanks stand in quotes.
 Every number that has no mark is a fault, outside of code and of the kinds that are no results
 (ALLOWED).
@@ -101,6 +101,30 @@ def is_lost(row):
     return bool(row.get("law_lost_at")) and float(row["strain"]) >= float(row["law_lost_at"])
 
 
+def is_again(row, other):
+    """Whether a row says what another has said: one cell, loads that differ by the axis alone, and
+    errors that are equal to 3 %. Such a cell looks the same along both axes.
+    """
+    if row["load"][:-1] != other["load"][:-1] or any(
+        row.get(key) != other.get(key) for key in ("cell", "strain", "what")
+    ):
+        return False
+    errors = [(row[name], other[name]) for name in row if f"{name}_bar" in row]
+    return bool(errors) and all(
+        one == two or "" not in (one, two) and math.isclose(float(one), float(two), rel_tol=0.03)
+        for one, two in errors
+    )
+
+
+def once(rows):
+    """Rows without those that say again what one before has said: each is one case."""
+    kept = []
+    for row in rows:
+        if not ("load" in row and any(is_again(row, other) for other in kept)):
+            kept.append(row)
+    return kept
+
+
 class Checker:
     """Faults of one text."""
 
@@ -151,6 +175,7 @@ class Checker:
                 ),
             )
         else:
+            rows = once(rows)
             if fold == "median":
                 rows = [row for row in rows if not is_lost(row)]
             values = [value for row in rows if (value := value_of(row, column)) is not None]

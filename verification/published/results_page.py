@@ -15,7 +15,7 @@ import bent_section
 from make import names_of, variants
 from numbers_of_page import LETTERS, UNBROKEN, table, three, with_bar
 from peers_section import section
-from readme_numbers import is_lost, read_tables
+from readme_numbers import is_lost, once, read_tables
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 NOTICE = "<!-- Generated: `cmake --build --preset release --target docs` writes this page. -->\n"
@@ -59,8 +59,16 @@ far: {there} of the {all}.
 SHORT = """\
 Medians, in brackets smallest and largest, of the rows in which the law holds, open ones included;
 how many rows are *nearer*, *farther* or *open*; and in how many, decided by the same rules, the
-paper's method is farther from the reference than the coarse mesh alone. A cell that is the same
-along both axes has equal rows `strip-1` and `strip-2`, and both count.
+paper's method is farther from the reference than the coarse mesh alone. A cell that looks the same
+along both axes has equal errors in `strip-1` and `strip-2`: they are one case here.
+"""
+ONE_CHANGE = """\
+`full` differs from the paper's method in its terms and in its coarse triangles, which are quadratic.
+These are the same errors over each other with one thing changed at a time: *terms*, of the paper's
+method over those of `full`, once on linear triangles and once on quadratic ones; *quadratic
+triangles*, of linear triangles over quadratic ones, once with the paper's terms (`localized` over
+`localized+p2`) and once with those of `full` (`full-p2` over `full`); and *up-sampling on linear
+triangles*, of the better of `affine` and `full-p2-micro` over `full-p2`.
 """
 HEADING = "gain of"
 NOT_RUN = "Not run yet at this size:"
@@ -72,6 +80,13 @@ GAINS = {
     "gain_total": "both",
     "gain_over_localized": "over paper",
 }
+CHANGES = {  # title: errors whose smallest is divided by that of the last
+    "terms, on linear triangles": ("localized", "full_linear"),
+    "terms, on quadratic ones": ("localized_p2", "full"),
+    "quadratic triangles, paper": ("localized", "localized_p2"),
+    "quadratic triangles, `full`": ("full_linear", "full"),
+    "up-sampling on linear triangles": ("affine", "full_linear_base", "full_linear"),
+}
 OUTCOMES = {"PASS": "nearer", "FAIL": "farther", "INCONCLUSIVE": "open"}
 UNCONFIRMED = 3.0  # factor of safety of a bar that no convergence supports
 LOSSES = (  # sentence, method, what it is compared with, the claim on it
@@ -79,6 +94,8 @@ LOSSES = (  # sentence, method, what it is compared with, the claim on it
      "localized", "affine", "localized_against_affine"),
     ("`full` is farther than its base", "full", "base", "full_against_base"),
     ("`full` is farther than the paper's method", "full", "localized", "full_against_localized"),
+    ("`full` is farther than the paper's method on quadratic triangles (`localized+p2`)",
+     "full", "localized_p2", None),
     ("`full` is farther than the coarse mesh alone", "full", "affine", None),
 )
 
@@ -128,13 +145,34 @@ def errors(rows):
     )
 
 
+def in_median(values):
+    """Median, smallest and largest."""
+    if not values:
+        return "–"
+    return (f"**{three(str(median(values)))}** ({three(str(min(values)))} to"
+            f" {three(str(max(values)))})")
+
+
+def one_change(rows):
+    """Medians and extremes of errors over each other, with one thing changed, where the law holds."""
+    lines = []
+    for name, its in sets(rows).items():
+        for strain, some in levels(once(its)).items():
+            kept = [row for row in some if not is_lost(row)]
+            lines.append([SETS[name], percent(strain), *(
+                in_median([min(float(row[one]) for one in before) / float(row[after])
+                           for row in known(kept, *before, after)])
+                for *before, after in CHANGES.values())])
+    return table(["one change", "strain", *CHANGES], lines)
+
+
 def summary(rows):
     """Medians and extremes of the gains, how many rows are decided, and in how many the paper's
     method has the larger error, by more than the bars and at all: set by set and strain by strain.
     """
     lines = []
     for name, its in sets(rows).items():
-        for strain, some in levels(its).items():
+        for strain, some in levels(once(its)).items():
             values = [
                 [float(row[gain]) for row in some if row[gain] and not is_lost(row)] for gain in GAINS
             ]
@@ -144,8 +182,7 @@ def summary(rows):
             ]
             lines.append([
                 SETS[name], percent(strain),
-                *(f"**{three(str(median(one)))}** ({three(str(min(one)))} to"
-                  f" {three(str(max(one)))})" if one else "–" for one in values),
+                *map(in_median, values),
                 " / ".join(map(str, count)),
                 f"{sum(row['localized_against_affine'] == 'FAIL' for row in some)}/"
                 f"{len(losses(some, 'localized', 'affine'))}"])
@@ -168,7 +205,7 @@ def with_gains(text, rows):
 
 def known(rows, *methods):
     """Those in which all methods have an error."""
-    return [row for row in rows if all(row[method] for method in methods)]
+    return [row for row in rows if all(row.get(method) for method in methods)]
 
 
 def losses(rows, method, other):
@@ -182,7 +219,7 @@ def lost(rows):
     for sentence, method, other, claim in LOSSES:
         out.append(f"{sentence}:\n")
         items = []
-        for strain, some in levels(rows).items():
+        for strain, some in levels(once(rows)).items():
             cases = [
                 f"`{row['cell']}` {row['load']} ({with_bar(row, method)} against"
                 f" {with_bar(row, other)}{', decided' if claim and row[claim] == 'FAIL' else ''}"
@@ -201,11 +238,11 @@ def open_weaves(rows):
     """What is said of the drawn weaves on which up-sampling is not known to be nearer."""
     names = [
         f"`{row['cell']}` {row['load']} at {percent(row['strain'])} ({decided(row)})"
-        for row in rows
+        for row in once(rows)
         if row["full_against_base"] != "PASS"
     ]
     return (
-        f"In {len(names)} of {len(rows)} rows `full` is not shown to be nearer than its"
+        f"In {len(names)} of {len(once(rows))} cases `full` is not shown to be nearer than its"
         f" base{': ' + ', '.join(names) if names else ''}.\n"
     )
 
@@ -213,7 +250,9 @@ def open_weaves(rows):
 def page(tables):
     """The whole page."""
     rows, brackets, claims = (tables[f"{name}.csv"] for name in ("errors", "brackets", "claims"))
-    out = [NOTICE, "# Results\n", ABOUT, "## Gains in short\n", SHORT, gains(rows)]
+    out = [NOTICE, "# Results\n", ABOUT, "## Gains in short\n", SHORT, gains(rows),
+           *["## One change at a time\n", ONE_CHANGE, one_change(rows)]
+           * any(row.get("full_linear") for row in rows)]
     for name, its in sets(rows).items():
         out.append(f"## {SETS[name].capitalize()}\n")
         if name == "drawn weaves":
@@ -223,7 +262,8 @@ def page(tables):
             out += [f"At {percent(strain)} strain:\n", errors(some)]
     out += [
         "## Where a method loses\n",
-        "*Decided* are the losses that are larger than the sum of both bars; *law* marks rows beyond the"
+        "*Decided* are the losses that are larger than the sum of both bars; `strip-1` stands for"
+        " `strip-2`, too, where the cell looks the same along both axes; *law* marks rows beyond the"
         " strain at which the law loses ellipticity.\n",
         *lost(rows),
         *section(tables["peers.csv"]),

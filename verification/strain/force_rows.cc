@@ -34,6 +34,23 @@ ForceRow row_of_forces(const StrainLevel &level, const char *method, const Load 
   return row;
 }
 
+/// How far the clamp that moves has moved from the one that stays, vertices of both in the mean; of
+/// an infinite cloth not a number [m].
+/// @param rest, positions (n,2) of the resolved vertices or of coarse nodes [m]
+double travel_of(const Load &load, const meshes::Sheet &sheet, const meshes::Points &rest,
+                 const meshes::Points &positions)
+{
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero(); // rows: of the clamp that stays, that moves
+  Eigen::Vector2d n   = Eigen::Vector2d::Zero();
+  for (const int v : held_vertices(load, sheet, rest))
+  {
+    const int clamp = sheet.fraction(rest.row(v))(load.axis()) > 0.5 ? 1 : 0;
+    sum.row(clamp) += positions.row(v) - rest.row(v);
+    n(clamp) += 1.;
+  }
+  return (sum.row(1) / n(1) - sum.row(0) / n(0)).norm();
+}
+
 ForceRow affine_row(const StrainLevel &level, const MethodsOnSheet &methods,
                     const CoarseModel &model, const CoarseState &coarse)
 {
@@ -49,6 +66,8 @@ ForceRow affine_row(const StrainLevel &level, const MethodsOnSheet &methods,
   };
   const auto slope = [&]() // dE/d(strain) [J]
   {
+    if (level.law == Law::linear)
+      return 2. * energy_at(coarse).energy / level.strain;
     constexpr double part = 1e-3;
     const double ahead = (1. + part) * level.strain, behind = (1. - part) * level.strain;
     return (energy_at(model.solve(ahead, &coarse)).energy -
@@ -96,7 +115,11 @@ std::vector<ForceRow> force_rows(const StrainLevel &level, const ResolvedLevel &
   std::vector<ForceRow> rows = {row_of_forces(level, "resolved", load, sides, resolved.fine.forces),
                                 row_of_forces(level, "coarse", load, sides, model.forces(coarse)),
                                 affine_row(level, methods, model, coarse)};
-  const double bar           = resolved.bar.force * std::abs(rows.front().per_width);
+  rows[0].travel =
+    travel_of(load, resolved.sheet, resolved.sheet.mesh.vertices, resolved.fine.positions);
+  rows[1].travel = rows[2].travel =
+    travel_of(load, resolved.sheet, model.mesh().vertices, coarse.positions);
+  const double bar = resolved.bar.force * std::abs(rows.front().per_width);
   for (ForceRow &row : rows)
     row.bar = bar;
   return rows;

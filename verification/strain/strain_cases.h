@@ -25,4 +25,18 @@ std::vector<Row> cases_of(const std::vector<Row> &rows)
       cases.push_back(row);
   return cases;
 }
+
+/// The first row of every case in linear theory on a sheet.
+template <typename Row>
+std::vector<Row> linear_sheets_of(const std::vector<Row> &rows)
+{
+  std::vector<Row> all = cases_of(rows);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Row &row) {
+                             return row.reference != name_of(Law::linear) ||
+                                    Load(row.load).is_periodic();
+                           }),
+            all.end());
+  return all;
+}
 } // namespace homespun::verification

@@ -17,7 +17,6 @@
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
 #include "verification/strain/claims/coarse_checks.h"
-#include "verification/strain/claims/cubic_verdicts.h"
 #include "verification/strain/claims/self_checks.h"
 #include "verification/strain/claims/study_claims.h"
 #include "verification/strain/kept_positions.h"
@@ -132,7 +131,7 @@ private:
                                                 cell.stiffness_of_phase(), communicator);
       study_load(cell, homogenized, load, *its);
     }
-    on_root(communicator, [&]() { add(cubic_verdicts(*output, options, cell, homogenized)); });
+    on_root(communicator, [&]() { add(cell_verdicts(*output, options, cell, homogenized)); });
     if (has_run_times(options))
     {
       of_sheet.reset();

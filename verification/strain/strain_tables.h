@@ -192,6 +192,7 @@ struct ForceRow
   double force     = none; ///< [N]; of an infinite cloth none
   double per_width = none; ///< nominal, per rest width of the clamped edge [N/m]
   double bar       = none; ///< of the reference's force per width [N/m]
+  double travel    = none; ///< of the moving clamp; of an infinite cloth none [m]
   double stress_11 = none, stress_22 = none, stress_12 = none,
          stress_21 = none; ///< mean nominal stress dW/dF over the rest area [N/m]
 
@@ -206,6 +207,7 @@ struct ForceRow
     column("force_N", &ForceRow::force, Domain::real);
     column("force_per_width_N_per_m", &ForceRow::per_width, Domain::real);
     column("reference_uncertainty_N_per_m", &ForceRow::bar, Domain::not_negative);
+    column("travel_m", &ForceRow::travel, Domain::not_negative);
     column("stress_11_N_per_m", &ForceRow::stress_11, Domain::real);
     column("stress_22_N_per_m", &ForceRow::stress_22, Domain::real);
     column("stress_12_N_per_m", &ForceRow::stress_12, Domain::real);

@@ -68,9 +68,15 @@ StressRow row_of(const StressAxis &axis, const double value, const Rung &rung, c
   row.seconds    = seconds;
   return row;
 }
+
+/// A ladder of floating-point products: a rung is a published one within its last digits.
+bool is_up_to(const double value, const double most)
+{
+  return value <= most * (1. + 1e-6);
+}
 } // namespace
 
-LimitRow climb(const StressAxis &axis, const double longest,
+LimitRow climb(const StressAxis &axis, const double owed, const double longest,
                const std::function<void(const StressRow &)> &told)
 {
   LimitRow row;
@@ -88,7 +94,7 @@ LimitRow climb(const StressAxis &axis, const double longest,
   double last_took = 0.;
   for (const double value : axis.ladder)
   {
-    if (value > axis.most || last_took > longest)
+    if (value > axis.most || (last_took > longest && !is_up_to(value, owed)))
     {
       row.ended_by = "cap";
       row.why      = value > axis.most ? axis.why_most : "a value more would take too long";
@@ -125,35 +131,30 @@ LimitRow climb(const StressAxis &axis, const double longest,
   return row;
 }
 
-std::optional<Verdict> verdict_of(const StressAxis &axis, const LimitRow &found,
-                                  const PublishedLimitRow *published)
+OwedValue owed_value(const StressAxis &axis, const PublishedLimitRow *published)
 {
-  double owed = 0.;
-  std::string why;
+  OwedValue owed;
   if (axis.theory == TheoryOfEnd::promises)
-  {
-    owed = axis.theory_end;
-    why  = "theory: " + axis.theory_is;
-  }
-  if (published && published->reached.value_or(0.) > owed)
-  {
-    owed = *published->reached;
-    why  = "published/limits.csv, of revision " + published->revision;
-  }
-  if (why.empty())
+    owed = {axis.theory_end, "theory: " + axis.theory_is};
+  if (published && published->reached.value_or(0.) > owed.value)
+    owed = {*published->reached, "published/limits.csv, of revision " + published->revision};
+  return owed;
+}
+
+std::optional<Verdict> verdict_of(const StressAxis &axis, const LimitRow &found,
+                                  const OwedValue &owed)
+{
+  if (owed.why.empty())
     return {};
-  // A ladder of floating-point products: a rung is the published one within its last digits.
-  const auto is_up_to = [](const double value, const double most)
-  { return value <= most * (1. + 1e-6); };
   // What a size leaves out is not asked.
   double asked = 0.;
   for (const double value : axis.ladder)
-    if (is_up_to(value, owed) && value <= axis.most)
+    if (is_up_to(value, owed.value) && value <= axis.most)
       asked = std::max(asked, value);
-  const bool falls = found.end && is_up_to(*found.end, owed),
+  const bool falls = found.end && is_up_to(*found.end, owed.value),
              holds = found.end || is_up_to(asked, found.reached.value_or(0.));
   return judged("stress-limit",
-                {{"axis", axis.axis}, {"of", axis.of}, {"largest", asked}, {"why", why}},
+                {{"axis", axis.axis}, {"of", axis.of}, {"largest", asked}, {"why", owed.why}},
                 falls   ? Outcome::fail
                 : holds ? Outcome::pass
                         : Outcome::inconclusive,

@@ -49,16 +49,26 @@ struct StressAxis
   std::string why_most = {};
 };
 
+/// Up to which value an axis must not end, and who says so; 0 where nobody does.
+struct OwedValue
+{
+  double value    = 0.;
+  std::string why = {};
+};
+
+/// The published limit, or that which theory promises, the larger of them.
+/// @param published null: none
+OwedValue owed_value(const StressAxis &axis, const PublishedLimitRow *published);
+
 /// Climbs the ladder until an answer is not right, and repeats the last that was, whose numbers
 /// must be the same to the last bit.
-/// @param longest a value that takes longer is the last [s]
+/// @param owed values up to it are tried however long they take
+/// @param longest a value that takes longer is the last beyond it [s]
 /// @param told every rung
-LimitRow climb(const StressAxis &axis, double longest,
+LimitRow climb(const StressAxis &axis, double owed, double longest,
                const std::function<void(const StressRow &)> &told);
 
-/// The claim that no value is wrong up to the published limit, and to where theory promises it;
-/// nothing where neither is there.
-/// @param published null: none
+/// The claim that no value is wrong up to what is owed; nothing where nothing is.
 std::optional<Verdict> verdict_of(const StressAxis &axis, const LimitRow &found,
-                                  const PublishedLimitRow *published);
+                                  const OwedValue &owed);
 } // namespace homespun::verification

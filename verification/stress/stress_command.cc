@@ -20,8 +20,9 @@ void StressCommand::add(CommandLine &line)
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("CELL.prm", arguments->study.cell_files,
                       "Cells whose axes are climbed (default: made ones)");
-  command->add_flag("--quick", arguments->study.is_quick,
-                    "Cells of at most 1e4 triangles, values of at most 2 s");
+  command->add_flag(
+    "--quick", arguments->study.is_quick,
+    "Cells of at most 1e4 triangles; beyond published limits, values of at most 2 s");
   add_study<StressCommand>(
     line, *command, arguments,
     {"out/CELLS/stress, --quick stress-quick",

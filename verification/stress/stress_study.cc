@@ -179,6 +179,20 @@ private:
     return static_cast<int>(n_ranks_of(communicator));
   }
 
+  /// The row of an axis, in a table.
+  template <typename Row>
+  static auto row_of(const StressAxis &axis, const std::vector<Row> &rows)
+  {
+    return std::find_if(rows.begin(), rows.end(),
+                        [&](const Row &row) { return row.axis == axis.axis && row.of == axis.of; });
+  }
+
+  OwedValue owed_of(const StressAxis &axis) const
+  {
+    const auto shipped = row_of(axis, published);
+    return owed_value(axis, !axis.is_shipped || shipped == published.end() ? nullptr : &*shipped);
+  }
+
   void climb_all()
   {
     std::size_t n_rungs = 0;
@@ -195,7 +209,7 @@ private:
       std::size_t n_done = 0;
       if (!limits->contains(row))
       {
-        row = climb(one, options.longest,
+        row = climb(one, owed_of(one).value, options.longest,
                     [&](const StressRow &rung)
                     {
                       rungs->append_if_missing(rung);
@@ -212,22 +226,18 @@ private:
 
   StudyDescription conclude() override
   {
-    const std::vector<PublishedLimitRow> published = published_limits();
     for (const StressAxis &one : axes)
     {
-      const auto is_its_own = [&](const auto &row)
-      { return row.axis == one.axis && row.of == one.of; };
-      const auto shipped = std::find_if(published.begin(), published.end(), is_its_own);
-      const auto found   = std::find_if(limits->rows().begin(), limits->rows().end(), is_its_own);
+      const auto found = row_of(one, limits->rows());
       if (const auto verdict =
-            verdict_of(one, found == limits->rows().end() ? LimitRow() : *found,
-                       !one.is_shipped || shipped == published.end() ? nullptr : &*shipped))
+            verdict_of(one, found == limits->rows().end() ? LimitRow() : *found, owed_of(one)))
         verdicts.push_back(*verdict);
     }
     return {{{"axes", axes.size()}}, what_was_left_out(n_ranks()), notes};
   }
 
   const StressStudyOptions options;
+  const std::vector<PublishedLimitRow> published = published_limits();
   std::vector<StressAxis> axes;
   std::unique_ptr<Table<LimitRow>> limits; ///< both on the first rank alone
   std::unique_ptr<Table<StressRow>> rungs;

@@ -66,10 +66,10 @@ TEST(bound_moduli_bars, every_stiffness_between_two_sides_has_its_moduli_within_
   Eigen::Matrix3d width;
   width << 30., 5., -4., 5., 20., 6., -4., 6., 15.; // positive definite
   const Eigen::Matrix3d lower = stiffness(), upper = lower + width;
-  const Eigen::Matrix3d S            = (lower + 0.5 * width).inverse();
+  const Eigen::Matrix3d of = lower + 0.5 * width, S = of.inverse();
   const std::array<double, 5> said   = entries(bars_of_moduli(S, compliance_bars(lower, upper))),
                               middle = moduli_of(S);
-  const Verdict check                = check_of_moduli("C^H", S, lower, upper);
+  const Verdict check                = check_of_moduli("C^H", of, lower, upper);
   EXPECT_NEAR(check.value, 1., 1e-9);
   EXPECT_EQ(check.outcome, Outcome::pass);
   const Eigen::Matrix3d half = width.llt().matrixL();

@@ -76,7 +76,7 @@ class PublishedBendTest(unittest.TestCase):
         self.assertIn("| `dots` | twist | – | 200 ± 10 | 250 ± 10 | 100 ± 10 | 50.0 ± 10 | 2.00 |"
                       " nearer |", text)
         self.assertIn("Not run yet: `net`.\n", text)
-        self.assertIn("Positions, 1 rows: `full` is nearer than its base in 1, farther in 0", text)
+        self.assertIn("Positions, 1 cases: `full` is nearer than its base in 1, farther in 0", text)
         self.assertIn("is farther than D^H alone in 1: `dots` twist.", text)
 
 

@@ -174,7 +174,7 @@ class CheckerTest(unittest.TestCase):
 
 def published_row(cell, strain, **columns):
     """A row of errors.csv; what is not given is an error of 4 ± 0.1 and a gain of 1."""
-    errors = {name: "4" for name, _ in results_page.METHODS}
+    errors = dict.fromkeys(of_strain.METHODS, "4")
     bars = {f"{name}_bar": "0.1" for name in errors}
     claims = dict.fromkeys(of_strain.CLAIMS, "INCONCLUSIVE")
     return {"set": "cells", "cell": cell, "load": "strip-1", "strain": strain, **errors, **bars,
@@ -197,7 +197,7 @@ class ResultsPageTest(unittest.TestCase):
                       " 4.00 | 2.50 | 10.0 | 0.400 | nearer |", page)
 
     def test_an_open_row_says_why(self):
-        empty = dict.fromkeys(("affine", "base", "localized", "full", *results_page.GAINS), "")
+        empty = dict.fromkeys((*of_strain.METHODS, *results_page.GAINS), "")
         page = self.page(published_row("within", "0.1"),
                          published_row("wide", "0.1", bar_safety="3"),
                          published_row("lost", "0.1", **empty, law_lost_at="0.0625"),
@@ -212,6 +212,26 @@ class ResultsPageTest(unittest.TestCase):
         page = self.page(*(published_row(name, "0.01") for name in names if name != "satin"))
         self.assertIn("Not run yet at this size: `satin`.", page)
         self.assertNotIn("Not run", self.page(*(published_row(name, "0.01") for name in names)))
+
+    def test_one_thing_changes_at_a_time(self):
+        row = published_row("good", "0.01", affine="30", localized="24", localized_p2="20",
+                            full_linear_base="36", full_linear="12", full="5")
+        lost = published_row("lost", "0.01", law_lost_at="0.001")
+        self.assertEqual(results_page.one_change([row, lost]).splitlines()[-1],
+                         "| patches, stripes, holes | 1 % |" + "".join(
+                             f" **{ratio}** ({ratio} to {ratio}) |"
+                             for ratio in ("2.00", "4.00", "1.20", "2.40", "2.50")))
+
+    def test_what_a_row_says_again_counts_once(self):
+        rows = [published_row("good", "0.01"), published_row("good", "0.1"),
+                published_row("good", "0.01", load="strip-2", full="4.03"),
+                published_row("good", "0.1", load="strip-2", full="4.2"),
+                published_row("lost", "0.1", full="", load="strip-1"),
+                published_row("lost", "0.1", full="", load="strip-2")]
+        self.assertEqual(results_page.once(rows), [rows[0], rows[1], rows[3], rows[4]])
+        self.assertEqual([line.split(" | ")[-2]
+                          for line in results_page.summary(rows).splitlines()[2:]],
+                         ["0 / 0 / 1", "0 / 0 / 3"])
 
     def test_every_row_in_which_a_method_loses_is_listed(self):
         page = self.page(published_row("good", "0.01", affine="9", base="8", full="3"),
@@ -253,7 +273,7 @@ class ResultsPageTest(unittest.TestCase):
                     "weaves | 1 % | 1.00 (1.00 to 1.00) | 1.50",
                     "weaves drawn by chance | 1 % | 1.00 (1.00 to 1.00) | 0.500"):
             self.assertIn(f"| {row}", page.replace("**", ""))
-        self.assertIn("In 1 of 1 rows `full` is not shown to be nearer than its base:"
+        self.assertIn("In 1 of 1 cases `full` is not shown to be nearer than its base:"
                       " `d-drawn-1` strip-1 at 1 % (bars).", page)
         self.assertIn("far: 1 of the 6.", page)
 

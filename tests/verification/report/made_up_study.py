@@ -97,6 +97,7 @@ def force_rows():
             "force_N": None if load.startswith("periodic") else factor * strain * 1000.0 * 2 * SIDE,
             "force_per_width_N_per_m": factor * strain * 1000.0,
             "reference_uncertainty_N_per_m": 0.005 * strain * 1000.0,
+            "travel_m": None if load.startswith("periodic") else strain * 2 * SIDE,
             "stress_11_N_per_m": 0.0,
             "stress_22_N_per_m": factor * strain * 1000.0,
             "stress_12_N_per_m": 0.0,

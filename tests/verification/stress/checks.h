@@ -55,8 +55,9 @@ expect_no_promise_broken(const std::vector<verification::StressAxis> &axes)
   std::vector<verification::LimitRow> rows;
   for (const verification::StressAxis &axis : axes)
   {
-    rows.push_back(verification::climb(axis, 10., [](const verification::StressRow &) {}));
-    if (const auto verdict = verification::verdict_of(axis, rows.back(), nullptr))
+    rows.push_back(verification::climb(axis, 0., 10., [](const verification::StressRow &) {}));
+    if (const auto verdict =
+          verification::verdict_of(axis, rows.back(), verification::owed_value(axis, nullptr)))
     {
       EXPECT_EQ(verdict->outcome, verification::Outcome::pass)
         << verdict->claim << ": " << rows.back().why;

@@ -35,9 +35,15 @@ StressAxis planted()
   return axis;
 }
 
-LimitRow climbed(const StressAxis &axis, const double longest = 10.)
+LimitRow climbed(const StressAxis &axis, const double longest = 10., const double owed = 0.)
 {
-  return climb(axis, longest, [](const StressRow &) {});
+  return climb(axis, owed, longest, [](const StressRow &) {});
+}
+
+std::optional<Verdict> verdict(const StressAxis &axis, const LimitRow &found,
+                               const PublishedLimitRow *limit)
+{
+  return verdict_of(axis, found, owed_value(axis, limit));
 }
 
 /// The same but at one value.
@@ -61,7 +67,8 @@ PublishedLimitRow published(const double reached)
 TEST(exact_stress, an_axis_ends_at_the_first_value_that_is_wrong)
 {
   std::vector<StressRow> rungs;
-  const LimitRow row = climb(planted(), 10., [&](const StressRow &rung) { rungs.push_back(rung); });
+  const LimitRow row =
+    climb(planted(), 0., 10., [&](const StressRow &rung) { rungs.push_back(rung); });
   EXPECT_EQ(row.reached, 100.);
   EXPECT_EQ(row.end, 1000.);
   EXPECT_EQ(row.ended_by, "error");
@@ -140,31 +147,34 @@ TEST(tripwire_stress, refusals_numbers_that_are_not_finite_and_other_bits_end_an
 TEST(tripwire_stress, a_limit_that_falls_fails_and_an_end_that_nothing_forbids_does_not)
 {
   const LimitRow row = climbed(planted()); // right up to 100
-  EXPECT_FALSE(verdict_of(planted(), row, nullptr));
+  EXPECT_FALSE(verdict(planted(), row, nullptr));
   for (const auto &[reached, outcome] : {std::pair{10., Outcome::pass},
                                          {100., Outcome::pass},
                                          {1000., Outcome::fail},
                                          {10000., Outcome::fail}})
   {
     const PublishedLimitRow limit = published(reached);
-    const auto verdict            = verdict_of(planted(), row, &limit);
-    ASSERT_TRUE(verdict);
-    EXPECT_EQ(verdict->outcome, outcome) << reached;
-    EXPECT_EQ(verdict->kind, Kind::program);
-    EXPECT_NE(verdict->derivation.find("a1b2c3d"), std::string::npos);
+    const auto said               = verdict(planted(), row, &limit);
+    ASSERT_TRUE(said);
+    EXPECT_EQ(said->outcome, outcome) << reached;
+    EXPECT_EQ(said->kind, Kind::program);
+    EXPECT_NE(said->derivation.find("a1b2c3d"), std::string::npos);
   }
   StressAxis promised = planted();
   promised.theory     = TheoryOfEnd::promises;
   promised.theory_end = 1000.;
-  EXPECT_EQ(verdict_of(promised, row, nullptr)->outcome, Outcome::fail);
+  EXPECT_EQ(verdict(promised, row, nullptr)->outcome, Outcome::fail);
   promised.theory = TheoryOfEnd::estimates;
-  EXPECT_FALSE(verdict_of(promised, row, nullptr));
-  // Where time stops a climb what was not tried is open; what a size leaves out is not asked.
+  EXPECT_FALSE(verdict(promised, row, nullptr));
+  // Time stops no climb before what is owed; what a size leaves out is not asked.
+  const PublishedLimitRow at_the_end = published(100.);
+  EXPECT_EQ(climbed(planted(), -1., 100.).reached, 100.);
+  EXPECT_EQ(verdict(planted(), climbed(planted(), -1., 100.), &at_the_end)->outcome, Outcome::pass);
   const PublishedLimitRow limit = published(1000.);
-  EXPECT_EQ(verdict_of(planted(), climbed(planted(), -1.), &limit)->outcome, Outcome::inconclusive);
+  EXPECT_EQ(verdict(planted(), climbed(planted(), -1.), &limit)->outcome, Outcome::inconclusive);
   StressAxis small = planted();
   small.most       = 10.;
-  const auto asked = verdict_of(small, climbed(small), &limit);
+  const auto asked = verdict(small, climbed(small), &limit);
   EXPECT_EQ(asked->outcome, Outcome::pass);
   EXPECT_NE(asked->claim.find("10"), std::string::npos) << asked->claim;
   EXPECT_EQ(asked->claim.find("1000"), std::string::npos) << asked->claim;

@@ -5,6 +5,7 @@
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
+#include "verification/strain/claims/force_verdicts.h"
 #include "verification/strain/strain_comparison.h"
 #include "verification/strain/validity.h"
 
@@ -16,16 +17,6 @@ namespace homespun::verification
 {
 namespace
 {
-/// The smallest strain and the next one that is at least twice as large; none above 1 %.
-std::vector<double> small_strains(const std::vector<double> &asked)
-{
-  std::vector<double> two;
-  for (const double strain : asked)
-    if (two.size() < 2 && strain < 0.0101 && (two.empty() || strain >= 2. * two[0]))
-      two.push_back(strain);
-  return two.size() == 2 ? two : std::vector<double>();
-}
-
 /// The stress beyond that of C^H over strain squared; not a number where it was not reached.
 double beyond_linear(const std::vector<ForceRow> &rows, const StrainLevel &level)
 {

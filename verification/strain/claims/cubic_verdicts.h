@@ -7,9 +7,8 @@
 #include "meshes/plain/homogenized_cell.h"
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_options.h"
-#include "verification/strain/strain_output.h"
+#include "verification/strain/strain_tables.h"
 
-#include <string>
 #include <vector>
 
 namespace homespun::verification
@@ -31,13 +30,4 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
                                     const StrainStudyOptions &options,
                                     const homogenization::UnitCell &cell,
                                     const meshes::HomogenizedCell &homogenized);
-
-/// The same of the tables of a study.
-inline std::vector<Verdict> cubic_verdicts(const StrainOutput &output,
-                                           const StrainStudyOptions &options,
-                                           const homogenization::UnitCell &cell,
-                                           const meshes::HomogenizedCell &homogenized)
-{
-  return cubic_verdicts(output.forces.rows(), output.levels.rows(), options, cell, homogenized);
-}
 } // namespace homespun::verification

@@ -10,6 +10,7 @@
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
 #include "verification/strain/claims/cubic_verdicts.h"
+#include "verification/strain/claims/force_verdicts.h"
 #include "verification/strain/claims/strain_verdicts.h"
 #include "verification/strain/claims/table_verdicts.h"
 #include "verification/strain/gains.h"
@@ -34,6 +35,8 @@ void add_case(const StrainStudyOptions &options, const Words &load, const std::s
   owed.push_back({"equilibria", words});
   if (has_cubic_claim(options, Load(load.at("load")), law_of(reference)))
     owed.push_back({"cubic-energy", words});
+  if (has_claim_on_laws(options, law_of(reference)))
+    owed.push_back({"laws-agree", words});
   if (reference != name_of(Law::linear))
     owed.push_back({"minimum", words, "equilibria"});
   else if (!Load(load.at("load")).is_periodic() && has(options.methods, "affine"))
@@ -98,6 +101,8 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
       Words words = {{"cell", cell.name}, {"load", load}};
       for (const std::string &reference : options.references)
         add_case(options, words, reference, owed);
+      if (!Load(load).is_periodic())
+        owed.push_back({"clamp-travel", words});
       if (has_budget(options, Load(load)))
         add_budget(options, words, owed);
       words["reference"] = main;
@@ -108,6 +113,20 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
   for (const char *id : {"norms", "read-back"})
     owed.push_back({id, {}});
   return owed;
+}
+
+std::vector<Verdict> cell_verdicts(const StrainOutput &output, const StrainStudyOptions &options,
+                                   const homogenization::UnitCell &cell,
+                                   const meshes::HomogenizedCell &homogenized)
+{
+  const std::vector<ForceRow> &forces = output.forces.rows();
+  const std::vector<LevelRow> &levels = output.levels.rows();
+  std::vector<Verdict> verdicts       = cubic_verdicts(forces, levels, options, cell, homogenized);
+  for (const auto &some :
+       {verdicts_of_laws(forces, levels, options, cell), verdicts_of_travel(forces, options, cell),
+        verdicts_of_parts(output.strain.rows(), cell)})
+    verdicts.insert(verdicts.end(), some.begin(), some.end());
+  return verdicts;
 }
 
 std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStudyOptions &options)

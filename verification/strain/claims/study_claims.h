@@ -15,6 +15,11 @@ namespace homespun::verification
 std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
                                       const std::vector<homogenization::UnitCell> &cells);
 
+/// All that it claims of one cell once its loads are done.
+std::vector<Verdict> cell_verdicts(const StrainOutput &output, const StrainStudyOptions &options,
+                                   const homogenization::UnitCell &cell,
+                                   const meshes::HomogenizedCell &homogenized);
+
 /// In the order of the report.
 /// @throws BadInput where a table cannot be read back
 std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStudyOptions &options);

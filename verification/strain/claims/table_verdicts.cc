@@ -20,18 +20,24 @@ namespace
 /// Rounding of sums over a million vertices.
 constexpr double rounding = 1e-12;
 
-/// The first row of every case in linear theory on a sheet.
-template <typename Row>
-std::vector<Row> linear_sheets_of(const std::vector<Row> &rows)
+/// Of the vertices of a sheet, the part that belongs to a triangle of a cell at an edge.
+double share_at_edges(const meshes::Sheet &sheet)
 {
-  std::vector<Row> all = cases_of(rows);
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const Row &row) {
-                             return row.reference != name_of(Law::linear) ||
-                                    Load(row.load).is_periodic();
-                           }),
-            all.end());
-  return all;
+  std::vector<char> is_at_edge(static_cast<std::size_t>(sheet.mesh.n_vertices()), 0);
+  for (int t = 0; t < sheet.mesh.n_triangles(); ++t)
+  {
+    Eigen::RowVector2d centre = Eigen::RowVector2d::Zero();
+    for (int i = 0; i < 3; ++i)
+      centre += sheet.mesh.vertices.row(sheet.mesh.triangles(t, i)) / 3.;
+    const Eigen::RowVector2d place =
+      sheet.fraction(centre).cwiseProduct(Eigen::RowVector2d(sheet.n1, sheet.n2));
+    if ((place.array() > 1.).all() && place(0) < sheet.n1 - 1. && place(1) < sheet.n2 - 1.)
+      continue;
+    for (int i = 0; i < 3; ++i)
+      is_at_edge[static_cast<std::size_t>(sheet.mesh.triangles(t, i))] = 1;
+  }
+  return static_cast<double>(std::count(is_at_edge.begin(), is_at_edge.end(), 1)) /
+         static_cast<double>(is_at_edge.size());
 }
 } // namespace
 
@@ -45,6 +51,26 @@ Verdict verdict_of_norms(const std::vector<StrainRow> &rows)
       n_wrong += !(row.mean <= (1. + rounding) * row.rms && row.rms <= (1. + rounding) * row.max);
     }
   return open_without(n_rows, at_most("norms", {{"rows", n_rows}}, n_wrong, 0.));
+}
+
+std::vector<Verdict> verdicts_of_parts(const std::vector<StrainRow> &rows,
+                                       const homogenization::UnitCell &cell)
+{
+  double worst    = 0.;
+  int n_rows      = 0;
+  double at_edges = -1.;
+  for (const StrainRow &row : rows)
+    if (row.cell == cell.name && std::isfinite(row.interior) && row.mean > 0.)
+    {
+      if (n_rows == 0)
+        at_edges = share_at_edges(meshes::tile(cell.mesh, cell.lattice, row.cells, row.cells));
+      const double mean = (1. - at_edges) * row.interior + at_edges * row.edge;
+      worst             = larger(worst, std::abs(mean / row.mean - 1.));
+      ++n_rows;
+    }
+  if (n_rows == 0)
+    return {};
+  return {at_most("parts-of-mean", {{"cell", cell.name}, {"rows", n_rows}}, worst, rounding)};
 }
 
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows)
@@ -84,38 +110,6 @@ std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow>
     verdicts.push_back(judged(
       "nested-forces", {{"cell", of_case.cell}, {"load", of_case.load}, {"least", solved_to}},
       least > solved_to ? Outcome::pass : Outcome::fail, least));
-  }
-  return verdicts;
-}
-
-std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
-{
-  std::vector<Verdict> verdicts;
-  for (const auto &of_case : linear_sheets_of(rows))
-  {
-    std::map<double, std::pair<double, double>> of_strain; // resolved, affine
-    for (const ForceRow &row : rows)
-      if (is_of_case(row, of_case))
-      {
-        if (row.method == "resolved")
-          of_strain[row.strain].first = row.per_width;
-        if (row.method == "affine")
-          of_strain[row.strain].second = row.per_width;
-      }
-    double worst  = 0.5; // of the ratios the one that is farthest from the middle of 0 and 1
-    bool is_known = false;
-    for (const auto &[strain, forces] : of_strain)
-      if (std::isfinite(forces.first) && std::isfinite(forces.second) && forces.second != 0.)
-      {
-        const double ratio = forces.first / forces.second;
-        if (!is_known || std::abs(ratio - 0.5) > std::abs(worst - 0.5))
-          worst = ratio;
-        is_known = true;
-      }
-    if (is_known)
-      verdicts.push_back(
-        judged("force-of-reference", {{"cell", of_case.cell}, {"load", of_case.load}},
-               worst > 0. && worst <= 1. + 10. * solved_to ? Outcome::pass : Outcome::fail, worst));
   }
   return verdicts;
 }

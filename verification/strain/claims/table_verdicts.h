@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Claims that the tables of a strain study must fulfil whatever the cell: inequalities of norms, of
-// forces and of nested discretizations, and that a file gives back what was written.
+// Claims that the tables of a strain study must fulfil whatever the cell: norms and their
+// parts, forces of nested discretizations, and that a file gives back what was written.
 #pragma once
 
+#include "homogenization/cell/unit_cell.h"
 #include "verification/record/table.h"
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_tables.h"
@@ -15,6 +16,12 @@ namespace homespun::verification
 /// strain.csv: mean <= root mean square <= largest distance, in every row.
 Verdict verdict_of_norms(const std::vector<StrainRow> &rows);
 
+/// strain.csv: the mean over all vertices is made of its two parts, `interior` and `edge`, as many
+/// vertices as the triangles of cells at edges have and as the others; none where no sheet of the
+/// cell has an interior. All sheets of a study are of one size.
+std::vector<Verdict> verdicts_of_parts(const std::vector<StrainRow> &rows,
+                                       const homogenization::UnitCell &cell);
+
 /// gains.csv: a row's base is one that may_be_base(), and none of those has a smaller error.
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows);
 
@@ -22,10 +29,6 @@ Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<St
 /// over the way of the clamp and width, falls from P1 to P2 to refined P2, whose spaces contain
 /// each other; none for a sheet whose P1 is exact.
 std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow> &rows);
-
-/// forces.csv, for every cell and sheet load in linear theory: the reference pulls back, with a
-/// force no larger than that of the affine motion, which is one of the motions it may choose.
-std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows);
 
 /// How many of the rows a file gives back otherwise, to the last bit, or not at all.
 /// @throws BadInput as read_table()

@@ -2,6 +2,7 @@
 // What vanishes from a strain study is noticed: made-up rows of a whole study, and faults in them.
 #include "verification/strain/claims/study_claims.h"
 
+#include "verification/strain/claims/force_verdicts.h"
 #include "verification/strain/claims/strain_verdicts.h"
 
 #include <gtest/gtest.h>
@@ -49,6 +50,8 @@ struct MadeUpStudy
   {
     std::vector<Verdict> verdicts = strain_verdicts(rows, options.strains, levels, options.methods);
     for (const Verdict &verdict : stability_verdicts(levels))
+      verdicts.push_back(verdict);
+    for (const Verdict &verdict : verdicts_of_travel({}, options, cell))
       verdicts.push_back(verdict);
     std::vector<OwedClaim> owed;
     for (const OwedClaim &one : owed_of_strain(options, {cell}))

@@ -2,6 +2,8 @@
 // The claims on tables, on rows by hand: what must hold passes, and each planted fault fails.
 #include "verification/strain/claims/table_verdicts.h"
 
+#include "tests/homogenization/cell/cells.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <fstream>
 #include <limits>
 
+using namespace homespun;
 using namespace homespun::verification;
 
 namespace
@@ -29,17 +32,6 @@ UncertaintyRow ladder_of(const double p1, const double p2, const double refined)
   row.force_p1_to_refined = (p1 - refined) / p1;
   row.force_p2_to_refined = (p2 - refined) / p1;
   return row;
-}
-
-std::vector<ForceRow> forces_of(const double resolved, const double affine)
-{
-  std::vector<ForceRow> rows;
-  for (const auto &[method, force] : {std::pair("resolved", resolved), std::pair("affine", affine)})
-  {
-    rows.push_back({"cell", "strip-1", 0.01, "linear", method});
-    rows.back().per_width = force;
-  }
-  return rows;
 }
 
 /// A folder that goes with the test.
@@ -116,15 +108,24 @@ TEST(bound_table_verdicts, forces_of_nested_spaces_fall)
   EXPECT_TRUE(verdicts_of_nested_forces({other}).empty());
 }
 
-TEST(bound_table_verdicts, a_sheet_pulls_back_no_harder_than_the_affine_motion)
+// 4 x 4 squares on 4 x 4 cells: 17 x 17 vertices, of which 7 x 7 lie in the middle.
+TEST(exact_table_verdicts, parts_make_up_the_mean)
 {
-  const auto outcome = [](const double resolved, const double affine)
-  { return verdicts_of_forces(forces_of(resolved, affine)).at(0).outcome; };
-  EXPECT_EQ(outcome(8., 10.), Outcome::pass);
-  EXPECT_EQ(outcome(10., 10.), Outcome::pass);
-  EXPECT_EQ(outcome(-8., 10.), Outcome::fail); // the clamps are exchanged
-  EXPECT_EQ(outcome(10.1, 10.), Outcome::fail);
-  EXPECT_TRUE(verdicts_of_forces(forces_of(8., none)).empty());
+  homogenization::UnitCell cell =
+    tests::cell_of(tests::skewed_lattice(), 4, 4, tests::soft_and_hard(), tests::halves);
+  cell.name     = "cell";
+  StrainRow row = row_of((49. * 1. + 240. * 3.) / 289., 4., 5.);
+  row.cells = 4, row.interior = 1., row.edge = 3.;
+  const auto verdict = [&](const double interior)
+  {
+    StrainRow other = row;
+    other.interior  = interior;
+    return verdicts_of_parts({row, other, row_of(1., 1., 1.)}, cell).at(0);
+  };
+  EXPECT_EQ(verdict(1.).outcome, Outcome::pass);
+  EXPECT_LT(verdict(1.).value, 1e-15);
+  EXPECT_EQ(verdict(1.001).outcome, Outcome::fail);
+  EXPECT_TRUE(verdicts_of_parts({row_of(1., 1., 1.)}, cell).empty());
 }
 
 TEST(exact_table_verdicts, a_file_gives_back_its_numbers_and_a_changed_digit_is_noticed)

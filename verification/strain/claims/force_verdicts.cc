@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/claims/force_verdicts.h"
+
+#include "verification/cell/discretization_distance.h"
+#include "verification/law/laws.h"
+#include "verification/record/claim.h"
+#include "verification/reference/loads.h"
+#include "verification/strain/strain_cases.h"
+#include "verification/strain/strain_comparison.h"
+#include "verification/strain/validity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace homespun::verification
+{
+std::vector<double> small_strains(const std::vector<double> &asked)
+{
+  std::vector<double> two;
+  for (const double strain : asked)
+    if (two.size() < 2 && strain < 0.0101 && (two.empty() || strain >= 2. * two[0]))
+      two.push_back(strain);
+  return two.size() == 2 ? two : std::vector<double>();
+}
+
+std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
+{
+  std::vector<Verdict> verdicts;
+  for (const auto &of_case : linear_sheets_of(rows))
+  {
+    std::map<double, std::pair<double, double>> of_strain; // resolved, affine
+    for (const ForceRow &row : rows)
+      if (is_of_case(row, of_case))
+      {
+        if (row.method == "resolved")
+          of_strain[row.strain].first = row.per_width;
+        if (row.method == "affine")
+          of_strain[row.strain].second = row.per_width;
+      }
+    double worst  = 0.5; // of the ratios the one that is farthest from the middle of 0 and 1
+    bool is_known = false;
+    for (const auto &[strain, forces] : of_strain)
+      if (std::isfinite(forces.first) && std::isfinite(forces.second) && forces.second != 0.)
+      {
+        const double ratio = forces.first / forces.second;
+        if (!is_known || std::abs(ratio - 0.5) > std::abs(worst - 0.5))
+          worst = ratio;
+        is_known = true;
+      }
+    if (is_known)
+      verdicts.push_back(
+        judged("force-of-reference", {{"cell", of_case.cell}, {"load", of_case.load}},
+               worst > 0. && worst <= 1. + 10. * solved_to ? Outcome::pass : Outcome::fail, worst));
+  }
+  return verdicts;
+}
+
+bool has_claim_on_laws(const StrainStudyOptions &options, const Law law)
+{
+  const auto &all = options.references;
+  return law != Law::linear && std::count(all.begin(), all.end(), name_of(Law::linear)) > 0 &&
+         !small_strains(options.strains).empty();
+}
+
+std::vector<Verdict> verdicts_of_laws(const std::vector<ForceRow> &rows,
+                                      const std::vector<LevelRow> &levels,
+                                      const StrainStudyOptions &options,
+                                      const homogenization::UnitCell &cell)
+{
+  constexpr double smallness  = 0.1;
+  constexpr double difference = 1e-5; // of the affine motion's energy, a central one
+  std::map<std::tuple<std::string, std::string, double, std::string>, double> pull;
+  for (const ForceRow &row : rows)
+    if (row.cell == cell.name)
+      pull[{row.load, row.reference, row.strain, row.method}] = row.per_width;
+  std::vector<Verdict> verdicts;
+  for (const std::string &load : options.loads)
+    for (const std::string &reference : options.references)
+    {
+      if (!has_claim_on_laws(options, law_of(reference)))
+        continue;
+      const std::vector<double> strains = small_strains(options.strains);
+      double worst = 0., allowed = 0.;
+      for (const char *method : {"resolved", "coarse", "affine"})
+      {
+        const auto off = [&](const double strain)
+        {
+          return pull[{load, reference, strain, method}] /
+                   pull[{load, name_of(Law::linear), strain, method}] -
+                 1.;
+        };
+        const double first = off(strains[0]), second = off(strains[1]),
+                     slope = (second - first) / (strains[1] - strains[0]),
+                     limit =
+                       strains[0] * larger(1., safety_unconfirmed * std::abs(slope)) + difference;
+        worst   = larger(worst, std::abs(first) / limit);
+        allowed = larger(allowed, limit);
+      }
+      Verdict verdict = at_most(
+        "laws-agree", {{"cell", cell.name}, {"load", load}, {"reference", reference}}, worst, 1.);
+      if (!(allowed <= smallness) ||
+          strains[1] > elliptic_up_to(levels, cell.name, load, reference))
+        verdict.outcome = Outcome::inconclusive;
+      verdicts.push_back(verdict);
+    }
+  return verdicts;
+}
+
+std::vector<Verdict> verdicts_of_travel(const std::vector<ForceRow> &rows,
+                                        const StrainStudyOptions &options,
+                                        const homogenization::UnitCell &cell)
+{
+  std::vector<Verdict> verdicts;
+  for (const std::string &name : options.loads)
+  {
+    const Load load(name);
+    if (load.is_periodic())
+      continue;
+    const double apart = options.n_cells * cell.lattice.vectors.row(load.axis()).norm();
+    double worst       = 0.;
+    int n_rows         = 0;
+    for (const ForceRow &row : rows)
+      if (row.cell == cell.name && row.load == name && row.method != "affine")
+      {
+        ++n_rows;
+        worst = larger(worst, std::abs(row.travel / (row.strain * apart) - 1.));
+      }
+    verdicts.push_back(open_without(
+      n_rows, at_most("clamp-travel", {{"cell", cell.name}, {"load", name}}, worst, solved_to)));
+  }
+  return verdicts;
+}
+} // namespace homespun::verification
