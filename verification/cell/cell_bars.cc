@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/cell_bars.h"
 
+#include "homogenization/bracket/loewner.h"
 #include "homogenization/lint/facets.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/moduli_bars.h"
@@ -24,13 +25,14 @@ std::optional<Eigen::Matrix3d> bars_of_stiffness(const AssessedCell &assessed)
 
 std::optional<homogenization::EngineeringConstants> bars_of_moduli(const AssessedCell &assessed)
 {
-  const Eigen::Matrix3d S = assessed.result.stiffness.inverse();
   if (assessed.bracket && assessed.bracket->bracket)
   {
     const homogenization::Bracket &found = *assessed.bracket->bracket;
+    const Eigen::Matrix3d S = homogenization::inverse_of(assessed.result.stiffness).value;
     return bars_of_moduli(S, compliance_bars(found.lower, found.upper) +
-                               (S - found.stiffness.inverse()).cwiseAbs());
+                               (S - homogenization::inverse_of(found.stiffness).value).cwiseAbs());
   }
+  const Eigen::Matrix3d S = assessed.result.stiffness.inverse();
   if (assessed.uncertainty)
     return bars_of_moduli(S, S.cwiseAbs() * *assessed.uncertainty * S.cwiseAbs());
   return std::nullopt;
@@ -43,7 +45,8 @@ Shown shown(const AssessedCell &assessed)
   const homogenization::Bracket &found = *assessed.bracket->bracket;
   const Eigen::Matrix3d middle         = 0.5 * (found.lower + found.upper);
   return {middle, 0.5 * bars_of(found),
-          bars_of_moduli(middle.inverse(), compliance_bars(found.lower, found.upper))};
+          bars_of_moduli(homogenization::inverse_of(middle).value,
+                         compliance_bars(found.lower, found.upper))};
 }
 
 std::string geometry_text(const UnitCell &cell, const Homogenization &result)

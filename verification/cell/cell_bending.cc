@@ -131,7 +131,8 @@ homogenization::EngineeringConstants bending_moduli(const BendingBracket &bracke
 
 homogenization::EngineeringConstants bars_of_bending_moduli(const BendingBracket &bracket)
 {
-  return bars_of_moduli(bracket.stiffness.inverse(), compliance_bars(bracket.lower, bracket.upper));
+  return bars_of_moduli(homogenization::inverse_of(bracket.stiffness).value,
+                        compliance_bars(bracket.lower, bracket.upper));
 }
 
 std::string range_text(const Eigen::Matrix3d &bending_stiffness)

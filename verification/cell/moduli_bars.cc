@@ -49,12 +49,13 @@ homogenization::EngineeringConstants bars_of_moduli(const Eigen::Matrix3d &S,
 Verdict check_of_moduli(const std::string &name, const Eigen::Matrix3d &stiffness,
                         const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
 {
-  const Eigen::Matrix3d bars = compliance_bars(lower, upper), S = stiffness.inverse();
+  const homogenization::RoundedInverse inverse = homogenization::inverse_of(stiffness);
+  const Eigen::Matrix3d bars = compliance_bars(lower, upper), &S = inverse.value;
   const std::array<double, 5> said = as_array(bars_of_moduli(S, bars)),
                               here = as_array(homogenization::engineering_constants(stiffness));
-  constexpr double round_off       = 16. * std::numeric_limits<double>::epsilon();
-  double reach                     = 0.;
-  const auto ask                   = [&](const Eigen::Matrix3d &compliance)
+  const double round_off = 16. * std::numeric_limits<double>::epsilon() + inverse.round_off;
+  double reach           = 0.;
+  const auto ask         = [&](const Eigen::Matrix3d &compliance)
   {
     const std::array<double, 5> moduli = moduli_of(compliance);
     for (std::size_t k = 0; k < said.size(); ++k)

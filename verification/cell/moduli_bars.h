@@ -21,8 +21,8 @@ homogenization::EngineeringConstants bars_of_moduli(const Eigen::Matrix3d &S,
 
 /// The claim that bars of moduli hold: the largest distance of a modulus from that which is said of
 /// a stiffness, over its bar, where each entry of the compliance lies at an end of its own bar, and
-/// of both sides, is 1 by definition. Round-off of a modulus counts as a part of its bar; infinite
-/// bars hold everything.
+/// of both sides, is 1 by definition. Round-off of a modulus and of the inverse counts as a part of
+/// its bar; infinite bars hold everything.
 /// @param name of the stiffness whose moduli have the bars
 Verdict check_of_moduli(const std::string &name, const Eigen::Matrix3d &stiffness,
                         const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper);

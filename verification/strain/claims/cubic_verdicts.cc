@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/cubic_verdicts.h"
 
-#include "verification/cell/algebraic_limit.h"
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
@@ -49,8 +48,6 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
 {
   constexpr double smallness        = 0.1;
   const std::vector<double> strains = small_strains(options.strains);
-  const double unsolved =
-    solved_to * std::sqrt(contrast_of(cell.stiffness_of_phase()) * 0.5 * cell.mesh.n_triangles());
   std::vector<Verdict> verdicts;
   for (const std::string &name : options.loads)
     for (const std::string &reference : options.references)
@@ -66,7 +63,7 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
                    second = beyond_linear(rows, {cell.name, name, law, strains[1]}),
                    slope  = (second - first) / (strains[1] - strains[0]),
                    limit  = safety_unconfirmed * std::abs(slope * strains[0]) / scale +
-                           unsolved / strains[0],
+                           left_in_stress(cell) / strains[0],
                    off = first - 3. * homogenized.second_order.at(reference).energy.value(unit);
       Verdict verdict =
         at_most("cubic-energy", {{"cell", cell.name}, {"load", name}, {"reference", reference}},

@@ -23,8 +23,7 @@ bool has_cubic_claim(const StrainStudyOptions &options, const Load &load, Law la
 /// at the smallest strain s1, over s1². The term of third order is what extrapolation from s1 and
 /// the next strain s2 >= 2 s1 to zero finds, times the factor of safety of two levels. Open where
 /// that is more than a tenth of the stiffness, where the law is lost up to s2, or where a strain
-/// was not reached. The forces r that the references leave, 1e-9 of all, change a stress by up to
-/// r.u, hence by sqrt(contrast) rows 1e-9 of it, with so many rows of triangles along a cell.
+/// was not reached. What the references leave counts, too, left_in_stress().
 std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
                                     const std::vector<LevelRow> &levels,
                                     const StrainStudyOptions &options,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/force_verdicts.h"
 
+#include "verification/cell/algebraic_limit.h"
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
@@ -106,6 +107,41 @@ std::vector<Verdict> verdicts_of_laws(const std::vector<ForceRow> &rows,
         verdict.outcome = Outcome::inconclusive;
       verdicts.push_back(verdict);
     }
+  return verdicts;
+}
+
+double left_in_stress(const homogenization::UnitCell &cell)
+{
+  return solved_to *
+         std::sqrt(contrast_of(cell.stiffness_of_phase()) * 0.5 * cell.mesh.n_triangles());
+}
+
+std::vector<Verdict> verdicts_of_moments(const std::vector<ForceRow> &rows,
+                                         const StrainStudyOptions &options,
+                                         const homogenization::UnitCell &cell)
+{
+  std::vector<Verdict> verdicts;
+  for (const std::string &name : options.loads)
+  {
+    const Load load(name);
+    if (!load.is_periodic() || load.has_free_sides())
+      continue;
+    double worst = 0.;
+    int n_rows   = 0;
+    for (const ForceRow &row : rows)
+      if (row.cell == cell.name && row.load == name)
+      {
+        Eigen::Matrix2d moment;
+        moment << row.stress_11, row.stress_12, row.stress_21, row.stress_22;
+        if (law_of(row.reference) != Law::linear)
+          moment *= load.gradient(row.strain).transpose();
+        worst = larger(worst, std::abs(moment(0, 1) - moment(1, 0)) / moment.norm());
+        ++n_rows;
+      }
+    verdicts.push_back(
+      open_without(n_rows, at_most("no-moment", {{"cell", cell.name}, {"load", name}}, worst,
+                                   left_in_stress(cell))));
+  }
   return verdicts;
 }
 

@@ -33,6 +33,17 @@ std::vector<Verdict> verdicts_of_laws(const std::vector<ForceRow> &rows,
                                       const StrainStudyOptions &options,
                                       const homogenization::UnitCell &cell);
 
+/// What the forces r that references leave, 1e-9 of all, may change of a stress: r.u, hence up to
+/// sqrt(contrast) rows 1e-9 of it, with so many rows of triangles along a cell.
+double left_in_stress(const homogenization::UnitCell &cell);
+
+/// Nothing turns an infinite cloth: with its mean nominal stress P the moment P Fᵀ is symmetric, in
+/// linear theory P itself. A claim for every load that gives F, the worst of all laws, strains and
+/// cloths.
+std::vector<Verdict> verdicts_of_moments(const std::vector<ForceRow> &rows,
+                                         const StrainStudyOptions &options,
+                                         const homogenization::UnitCell &cell);
+
 /// Under every sheet load the moving clamp has moved by strain times the distance of the clamps,
 /// read off the positions of the resolved and the coarse cloth.
 /// @param cell whose lattice makes the sheet

@@ -103,6 +103,8 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
         add_case(options, words, reference, owed);
       if (!Load(load).is_periodic())
         owed.push_back({"clamp-travel", words});
+      else if (!Load(load).has_free_sides())
+        owed.push_back({"no-moment", words});
       if (has_budget(options, Load(load)))
         add_budget(options, words, owed);
       words["reference"] = main;
@@ -123,8 +125,9 @@ std::vector<Verdict> cell_verdicts(const StrainOutput &output, const StrainStudy
   const std::vector<LevelRow> &levels = output.levels.rows();
   std::vector<Verdict> verdicts       = cubic_verdicts(forces, levels, options, cell, homogenized);
   for (const auto &some :
-       {verdicts_of_laws(forces, levels, options, cell), verdicts_of_travel(forces, options, cell),
-        verdicts_of_parts(output.strain.rows(), cell)})
+       {verdicts_of_laws(forces, levels, options, cell), verdicts_of_moments(forces, options, cell),
+        verdicts_of_travel(forces, options, cell), verdicts_of_parts(output.strain.rows(), cell),
+        verdicts_of_proportions(output.strain.rows(), forces, cell, left_in_stress(cell))})
     verdicts.insert(verdicts.end(), some.begin(), some.end());
   return verdicts;
 }
@@ -150,6 +153,8 @@ std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStud
   }
   add(verdicts_of_nested_forces(output.uncertainty.rows()));
   add(verdicts_of_forces(output.forces.rows()));
+  if (options.n_cells_of_error_bar > 0)
+    add({verdict_of_triangles(output.uncertainty.rows())});
   const std::vector<GainRow> gains = gain_rows(output.strain.rows());
   if (!gains.empty())
     add({verdict_of_bases(gains, output.strain.rows())});

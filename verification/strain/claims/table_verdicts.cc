@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 namespace homespun::verification
@@ -71,6 +73,57 @@ std::vector<Verdict> verdicts_of_parts(const std::vector<StrainRow> &rows,
   if (n_rows == 0)
     return {};
   return {at_most("parts-of-mean", {{"cell", cell.name}, {"rows", n_rows}}, worst, rounding)};
+}
+
+std::vector<Verdict> verdicts_of_proportions(const std::vector<StrainRow> &rows,
+                                             const std::vector<ForceRow> &forces,
+                                             const homogenization::UnitCell &cell,
+                                             const double left)
+{
+  // Least and largest of each load and method, over strain.
+  std::map<std::vector<std::string>, std::pair<double, double>> ranges;
+  std::set<double> strains;
+  const auto add = [&](const auto &row, const char *what, const double value, const double scale)
+  {
+    if (row.cell != cell.name || row.reference != name_of(Law::linear) || !std::isfinite(value))
+      return;
+    strains.insert(row.strain);
+    const double next = value / (row.strain * scale);
+    auto &[least, most] =
+      ranges.try_emplace({what, row.load, row.method}, next, next).first->second;
+    std::tie(least, most) = std::pair(std::min(least, next), std::max(most, next));
+  };
+  for (const StrainRow &row : rows)
+    add(row, "error", row.mean, row.cells * std::sqrt(cell.lattice.area()));
+  for (const ForceRow &row : forces)
+    add(row, "force", row.per_width, 1.);
+  if (strains.size() < 2)
+    return {};
+  double worst = 0.;
+  for (const auto &[of, range] : ranges)
+    worst =
+      larger(worst, (range.second - range.first) / (of[0] == "error" ? 1. : std::abs(range.first)));
+  return {at_most("proportional", {{"cell", cell.name}}, worst, left)};
+}
+
+Verdict verdict_of_triangles(const std::vector<UncertaintyRow> &rows)
+{
+  int n_wrong = 0, n_rows = 0;
+  const auto is_triangle = [](double a, double b, double c)
+  {
+    const double longest = std::max({a, b, c});
+    return a + b + c - longest >= (1. - rounding) * longest;
+  };
+  for (const UncertaintyRow &row : rows)
+  {
+    if (!std::isfinite(row.p1_to_refined) || !std::isfinite(row.p2_to_refined))
+      continue;
+    ++n_rows;
+    n_wrong += !is_triangle(row.p1_to_p2, row.p1_to_refined, row.p2_to_refined) ||
+               (std::isfinite(row.p1_to_p2_max) &&
+                !is_triangle(row.p1_to_p2_max, row.p1_to_refined_max, row.p2_to_refined_max));
+  }
+  return open_without(n_rows, at_most("triangles", {{"rows", n_rows}}, n_wrong, 0.));
 }
 
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows)

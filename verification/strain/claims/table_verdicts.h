@@ -22,6 +22,18 @@ Verdict verdict_of_norms(const std::vector<StrainRow> &rows);
 std::vector<Verdict> verdicts_of_parts(const std::vector<StrainRow> &rows,
                                        const homogenization::UnitCell &cell);
 
+/// In linear theory the errors of strain.csv and the forces of forces.csv are proportional to the
+/// strain, under every load: of errors over strain and side of the sheet the largest difference, of
+/// forces the largest relative one. A claim per cell; none without two strains of one case.
+/// @param left what the references leave, left_in_stress()
+std::vector<Verdict> verdicts_of_proportions(const std::vector<StrainRow> &rows,
+                                             const std::vector<ForceRow> &forces,
+                                             const homogenization::UnitCell &cell, double left);
+
+/// uncertainty.csv: of three discretizations none lies farther from another than the way through
+/// the third one, in the mean and at the worst vertex.
+Verdict verdict_of_triangles(const std::vector<UncertaintyRow> &rows);
+
 /// gains.csv: a row's base is one that may_be_base(), and none of those has a smaller error.
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows);
 

@@ -86,6 +86,26 @@ TEST(bound_force_verdicts, laws_agree_at_rest)
   EXPECT_FALSE(has_claim_on_laws({}, Law::biot));
 }
 
+TEST(exact_force_verdicts, nothing_turns_infinite_cloth)
+{
+  StrainStudyOptions options;
+  options.loads = {"periodic-12", "uniaxial-1", "strip-1"};
+  const auto of = [&](const char *reference, const Eigen::Matrix2d &P)
+  {
+    ForceRow row  = {"cell", "periodic-12", 0.1, reference, "coarse"};
+    row.stress_11 = P(0, 0), row.stress_12 = P(0, 1);
+    row.stress_21 = P(1, 0), row.stress_22 = P(1, 1);
+    const std::vector<Verdict> claims = verdicts_of_moments({row}, options, oblique());
+    EXPECT_EQ(claims.size(), 1u);
+    return claims.at(0).outcome;
+  };
+  const Eigen::Matrix2d S{{3., 1.}, {1., -2.}}, F{{1., 0.1}, {0., 1.}}, P = F * S;
+  EXPECT_EQ(of("green", P), Outcome::pass);
+  EXPECT_EQ(of("green", P.transpose()), Outcome::fail);
+  EXPECT_EQ(of("linear", S), Outcome::pass);
+  EXPECT_EQ(of("linear", P), Outcome::fail);
+}
+
 TEST(exact_force_verdicts, the_clamp_moves_by_strain_times_the_distance)
 {
   StrainStudyOptions options;

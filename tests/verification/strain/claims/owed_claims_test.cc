@@ -51,8 +51,9 @@ struct MadeUpStudy
     std::vector<Verdict> verdicts = strain_verdicts(rows, options.strains, levels, options.methods);
     for (const Verdict &verdict : stability_verdicts(levels))
       verdicts.push_back(verdict);
-    for (const Verdict &verdict : verdicts_of_travel({}, options, cell))
-      verdicts.push_back(verdict);
+    for (const auto &some :
+         {verdicts_of_travel({}, options, cell), verdicts_of_moments({}, options, cell)})
+      verdicts.insert(verdicts.end(), some.begin(), some.end());
     std::vector<OwedClaim> owed;
     for (const OwedClaim &one : owed_of_strain(options, {cell}))
       if (one.of.count("load") != 0)

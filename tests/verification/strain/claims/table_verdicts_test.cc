@@ -128,6 +128,47 @@ TEST(exact_table_verdicts, parts_make_up_the_mean)
   EXPECT_TRUE(verdicts_of_parts({row_of(1., 1., 1.)}, cell).empty());
 }
 
+TEST(exact_table_verdicts, linear_theory_is_proportional)
+{
+  homogenization::UnitCell cell =
+    tests::cell_of(tests::square_lattice(0.01), 4, 4, tests::soft_and_hard(), tests::halves);
+  cell.name             = "cell";
+  const auto verdict_at = [&](const double error, const double force, const char *reference)
+  {
+    std::vector<StrainRow> rows;
+    std::vector<ForceRow> forces;
+    for (const double strain : {0.01, 0.1})
+    {
+      rows.push_back({"cell", "strip-1", strain, reference, "localized", 20});
+      rows.back().mean = strain * (strain < 0.05 ? 1e-4 : error);
+      forces.push_back({"cell", "strip-1", strain, reference, "resolved"});
+      forces.back().per_width = -strain * (strain < 0.05 ? 2. : force);
+    }
+    return verdicts_of_proportions(rows, forces, cell, 1e-9);
+  };
+  EXPECT_EQ(verdict_at(1e-4, 2., "linear").at(0).outcome, Outcome::pass);
+  EXPECT_NEAR(verdict_at(1.02e-4, 2., "linear").at(0).value, 1e-5, 1e-12);
+  EXPECT_EQ(verdict_at(1.02e-4, 2., "linear").at(0).outcome, Outcome::fail);
+  EXPECT_EQ(verdict_at(1e-4, 2.1, "linear").at(0).outcome, Outcome::fail);
+  EXPECT_TRUE(verdict_at(1e-3, 3., "biot").empty());
+}
+
+TEST(bound_table_verdicts, the_third_discretization_is_no_short_cut)
+{
+  const auto outcome = [](const double p1_to_p2, const double p1_to_refined, const double last)
+  {
+    UncertaintyRow row;
+    row.p1_to_p2 = p1_to_p2, row.p1_to_refined = p1_to_refined, row.p2_to_refined = last;
+    return verdict_of_triangles({row, UncertaintyRow()}).outcome;
+  };
+  EXPECT_EQ(outcome(4., 5., 1.), Outcome::pass);
+  EXPECT_EQ(outcome(0., 0., 0.), Outcome::pass);
+  EXPECT_EQ(outcome(4., 5., 0.9), Outcome::fail);
+  EXPECT_EQ(outcome(5., 4., 0.9), Outcome::fail);
+  EXPECT_EQ(outcome(1., 1., 2.1), Outcome::fail);
+  EXPECT_EQ(verdict_of_triangles({}).outcome, Outcome::inconclusive);
+}
+
 TEST(exact_table_verdicts, a_file_gives_back_its_numbers_and_a_changed_digit_is_noticed)
 {
   const Folder folder;
