@@ -164,7 +164,7 @@ private:
           for (const std::string &one : cases)
             for (const char *id : ids)
               owed.push_back(
-                {id, {{"cell", cell.name}, {"study", study}, {"case", one}}, "all-levels"});
+                {id, {{"cell", cell.name}, {"study", study}, {"case", one}}, {"all-levels"}});
     };
     const std::vector<std::string> sheets = Load::names_of(LoadKind::sheet);
     add("mesh", {"uniform refinement"}, {"nested-levels", "mesh-changes"});

@@ -213,7 +213,7 @@ void add_owed_of_paths(const std::string &cell, const std::vector<std::string> &
       {
         owed.push_back({"load-levels", path});
         for (const char *id : {"load-work", "load-minimum"})
-          owed.push_back({id, path, "load-levels"});
+          owed.push_back({id, path, {"load-levels"}});
       }
 }
 
@@ -222,7 +222,7 @@ void add_owed_of_margins(const Words &path, const int n_refinements, std::vector
   for (const char *id : {"beta-sides", "long-waves", "periodic-states"})
     owed.push_back({id, path});
   if (n_refinements > 0)
-    owed.push_back({"stable-on-both-meshes", path, "row-of-loss"});
+    owed.push_back({"stable-on-both-meshes", path, {"row-of-loss"}});
 }
 
 std::vector<std::string> notes_on_margins(const std::vector<StabilityRow> &rows)

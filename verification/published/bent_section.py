@@ -3,7 +3,7 @@
 from statistics import median
 
 from numbers_of_page import table, three, with_bar
-from readme_numbers import once
+from readme_numbers import without_twins
 
 HEADING = "## Sheets that bend\n"
 ABOUT = """\
@@ -42,7 +42,7 @@ def errors(rows):
 
 def in_short(rows, what):
     """How many rows are decided, the median gain, and each loss by name."""
-    rows = once(rows)
+    rows = without_twins(rows)
     count = {word: sum(OUTCOMES[row["full_against_base"]] == word for row in rows)
              for word in OUTCOMES.values()}
     gains = [float(row["base"]) / float(row["full"]) for row in rows if row["full"]]

@@ -7,8 +7,9 @@ A number is marked by a comment just before it, which names table, row and colum
 
 A row is named by its first columns, joined by `/`. With `*` the name stands for several rows, and
 the column ends in `:min`, `:max`, `:median` (of the rows in which the law holds), `:sum` or
-`:count`; what a row says again of a cell that is the same along both axes counts once. `A/B` in place of a column is the ratio of two, `A>B:count` the number of rows where one
-is larger, `A=TEXT:count` of those where it is a text. Names with blanks stand in quotes.
+`:count`; the last three take one row of each case (without_twins()). `A/B` in place of a column is
+the ratio of two, `A>B:count` the number of rows where one is larger, `A=TEXT:count` of those where
+it is a text. Names with blanks stand in quotes.
 Every number that has no mark is a fault, outside of code and of the kinds that are no results
 (ALLOWED).
 """
@@ -53,7 +54,7 @@ def read_tables(folder):
     for name in sorted(os.listdir(folder)):
         if name.endswith(".csv"):
             with open(os.path.join(folder, name), encoding="utf-8", newline="") as file:
-                tables[name] = list(csv.DictReader(file))
+                tables[name] = with_twins_marked(list(csv.DictReader(file)))
     return tables
 
 
@@ -76,7 +77,7 @@ def is_printed_as(value, text):
     zeros = max(0, min(len(whole) - len(whole.rstrip("0")), len(whole) - 3)) if not decimals else 0
     return any(
         float(f"{round(value, places):.{decimals}f}") == float(text)
-        for places in {decimals, -zeros}
+        for places in ({decimals} if decimals else {0, -zeros})
     )
 
 
@@ -101,28 +102,41 @@ def is_lost(row):
     return bool(row.get("law_lost_at")) and float(row["strain"]) >= float(row["law_lost_at"])
 
 
-def is_again(row, other):
-    """Whether a row says what another has said: one cell, loads that differ by the axis alone, and
-    errors that are equal to 3 %. Such a cell looks the same along both axes.
+TWINS = {"strip-2": "strip-1", "cantilever-2": "cantilever-1"}  # loads that differ by the axis
+
+
+def with_twins_marked(rows):
+    """Rows, with `twin` where one says what that of its twin load has said: the cell looks the same
+    along both axes, as all its errors under both loads tell, which are equal to 3 %.
     """
-    if row["load"][:-1] != other["load"][:-1] or any(
-        row.get(key) != other.get(key) for key in ("cell", "strain", "what")
-    ):
-        return False
-    errors = [(row[name], other[name]) for name in row if f"{name}_bar" in row]
-    return bool(errors) and all(
-        one == two or "" not in (one, two) and math.isclose(float(one), float(two), rel_tol=0.03)
-        for one, two in errors
-    )
+    places = {
+        (row["cell"], row["load"], row.get("strain"), row.get("what")): row
+        for row in rows
+        if "cell" in row and "load" in row
+    }
+    pairs = {}  # {(cell, load): [(error, that of the twin)]}
+    for (cell, load, *level), row in places.items():
+        twin = places.get((cell, TWINS.get(load), *level), {})
+        pairs.setdefault((cell, load), []).extend(
+            (row[name], twin.get(name)) for name in row if f"{name}_bar" in row
+        )
+    alike = {
+        key
+        for key, some in pairs.items()
+        if any(one for one, _ in some)
+        and all(
+            one == two or one and two and math.isclose(float(one), float(two), rel_tol=0.03)
+            for one, two in some
+        )
+    }
+    return [
+        {**row, "twin": "yes" * ((row.get("cell"), row.get("load")) in alike)} for row in rows
+    ]
 
 
-def once(rows):
-    """Rows without those that say again what one before has said: each is one case."""
-    kept = []
-    for row in rows:
-        if not ("load" in row and any(is_again(row, other) for other in kept)):
-            kept.append(row)
-    return kept
+def without_twins(rows):
+    """One row of each case."""
+    return [row for row in rows if not row.get("twin")]
 
 
 class Checker:
@@ -175,7 +189,8 @@ class Checker:
                 ),
             )
         else:
-            rows = once(rows)
+            if fold in ("median", "sum", "count"):
+                rows = without_twins(rows)
             if fold == "median":
                 rows = [row for row in rows if not is_lost(row)]
             values = [value for row in rows if (value := value_of(row, column)) is not None]

@@ -15,7 +15,7 @@ import bent_section
 from make import names_of, variants
 from numbers_of_page import LETTERS, UNBROKEN, table, three, with_bar
 from peers_section import section
-from readme_numbers import is_lost, once, read_tables
+from readme_numbers import is_lost, read_tables, without_twins
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 NOTICE = "<!-- Generated: `cmake --build --preset release --target docs` writes this page. -->\n"
@@ -57,10 +57,10 @@ cover of their yarns were drawn by chance and stored before any of them was run.
 far: {there} of the {all}.
 """
 SHORT = """\
-Medians, in brackets smallest and largest, of the rows in which the law holds, open ones included;
-how many rows are *nearer*, *farther* or *open*; and in how many, decided by the same rules, the
+Medians, in brackets smallest and largest, of the cases in which the law holds, open ones included;
+how many cases are *nearer*, *farther* or *open*; and in how many, decided by the same rules, the
 paper's method is farther from the reference than the coarse mesh alone. A cell that looks the same
-along both axes has equal errors in `strip-1` and `strip-2`: they are one case here.
+along both axes has errors in `strip-1` and `strip-2` that are equal to 3 %: they are one case.
 """
 ONE_CHANGE = """\
 `full` differs from the paper's method in its terms and in its coarse triangles, which are quadratic.
@@ -145,24 +145,26 @@ def errors(rows):
     )
 
 
-def in_median(values):
-    """Median, smallest and largest."""
-    if not values:
+def in_median(rows, value_of):
+    """The median of a number of all cases, and its smallest and largest value in all rows."""
+    if not rows:
         return "–"
-    return (f"**{three(str(median(values)))}** ({three(str(min(values)))} to"
-            f" {three(str(max(values)))})")
+    middle = median(map(value_of, without_twins(rows)))
+    ends = [pick(map(value_of, rows)) for pick in (min, max)]
+    return f"**{three(str(middle))}** ({' to '.join(three(str(end)) for end in ends)})"
 
 
 def one_change(rows):
     """Medians and extremes of errors over each other, with one thing changed, where the law holds."""
     lines = []
     for name, its in sets(rows).items():
-        for strain, some in levels(once(its)).items():
+        for strain, some in levels(its).items():
             kept = [row for row in some if not is_lost(row)]
             lines.append([SETS[name], percent(strain), *(
-                in_median([min(float(row[one]) for one in before) / float(row[after])
-                           for row in known(kept, *before, after)])
-                for *before, after in CHANGES.values())])
+                in_median(known(kept, *names),
+                          lambda row, names=names: min(float(row[one]) for one in names[:-1])
+                          / float(row[names[-1]]))
+                for names in CHANGES.values())])
     return table(["one change", "strain", *CHANGES], lines)
 
 
@@ -172,20 +174,19 @@ def summary(rows):
     """
     lines = []
     for name, its in sets(rows).items():
-        for strain, some in levels(once(its)).items():
-            values = [
-                [float(row[gain]) for row in some if row[gain] and not is_lost(row)] for gain in GAINS
-            ]
+        for strain, some in levels(its).items():
+            cases = without_twins(some)
             count = [
-                sum(OUTCOMES[row["full_against_base"]] == word for row in some)
+                sum(OUTCOMES[row["full_against_base"]] == word for row in cases)
                 for word in OUTCOMES.values()
             ]
             lines.append([
                 SETS[name], percent(strain),
-                *map(in_median, values),
+                *(in_median([row for row in known(some, gain) if not is_lost(row)],
+                            lambda row, gain=gain: float(row[gain])) for gain in GAINS),
                 " / ".join(map(str, count)),
-                f"{sum(row['localized_against_affine'] == 'FAIL' for row in some)}/"
-                f"{len(losses(some, 'localized', 'affine'))}"])
+                f"{sum(row['localized_against_affine'] == 'FAIL' for row in cases)}/"
+                f"{len(losses(cases, 'localized', 'affine'))}"])
     return table([HEADING, "strain", *GAINS.values(), " / ".join(OUTCOMES.values()),
                   "paper loses, decided/all"], lines)
 
@@ -217,9 +218,11 @@ def lost(rows):
     """Each row in which a method has the larger error than another, as lists."""
     out = []
     for sentence, method, other, claim in LOSSES:
+        if not known(rows, method, other):
+            continue  # nothing was run
         out.append(f"{sentence}:\n")
         items = []
-        for strain, some in levels(once(rows)).items():
+        for strain, some in levels(without_twins(rows)).items():
             cases = [
                 f"`{row['cell']}` {row['load']} ({with_bar(row, method)} against"
                 f" {with_bar(row, other)}{', decided' if claim and row[claim] == 'FAIL' else ''}"
@@ -238,11 +241,11 @@ def open_weaves(rows):
     """What is said of the drawn weaves on which up-sampling is not known to be nearer."""
     names = [
         f"`{row['cell']}` {row['load']} at {percent(row['strain'])} ({decided(row)})"
-        for row in once(rows)
+        for row in without_twins(rows)
         if row["full_against_base"] != "PASS"
     ]
     return (
-        f"In {len(names)} of {len(once(rows))} cases `full` is not shown to be nearer than its"
+        f"In {len(names)} of {len(without_twins(rows))} cases `full` is not shown to be nearer than its"
         f" base{': ' + ', '.join(names) if names else ''}.\n"
     )
 

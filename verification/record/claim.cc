@@ -88,13 +88,14 @@ std::vector<Verdict> missing_claims(const std::vector<OwedClaim> &owed,
   std::vector<Verdict> missing;
   for (const OwedClaim &one : owed)
   {
-    const auto is_about_it = [&](const Verdict &verdict)
+    const auto is_about_it = [&](const Verdict &verdict, const bool has_all_words)
     {
       return std::all_of(one.of.begin(), one.of.end(),
                          [&](const auto &word)
                          {
                            const auto found = verdict.of.find(word.first);
-                           return found != verdict.of.end() && found->second == word.second;
+                           return found == verdict.of.end() ? !has_all_words
+                                                            : found->second == word.second;
                          });
     };
     const bool is_judged = std::any_of(
@@ -102,8 +103,9 @@ std::vector<Verdict> missing_claims(const std::vector<OwedClaim> &owed,
       [&](const Verdict &verdict)
       {
         const bool answers = verdict.id == one.id || verdict.id.rfind(one.id + ".", 0) == 0,
-                   excuses = verdict.id == one.unless && verdict.outcome != Outcome::pass;
-        return (answers || excuses) && is_about_it(verdict);
+                   excuses = verdict.outcome != Outcome::pass &&
+                             std::count(one.unless.begin(), one.unless.end(), verdict.id) > 0;
+        return (answers || excuses) && is_about_it(verdict, answers);
       });
     if (is_judged)
       continue;

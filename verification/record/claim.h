@@ -63,8 +63,9 @@ struct OwedClaim
 {
   std::string id; ///< or what stands before a dot of it: one question with several answers
   Words of;       ///< what it is about: words that its verdict has, too
-  /// A claim about the same that says, where it does not hold, why there is none.
-  std::string unless = {};
+  /// Claims that say, where they do not hold, why there is none; about the same, as far as they
+  /// have these words.
+  std::vector<std::string> unless = {};
 };
 
 /// For each claim that is owed and has no verdict one that failed: what is not there hides what it

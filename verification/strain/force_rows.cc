@@ -44,7 +44,10 @@ double travel_of(const Load &load, const meshes::Sheet &sheet, const meshes::Poi
   Eigen::Vector2d n   = Eigen::Vector2d::Zero();
   for (const int v : held_vertices(load, sheet, rest))
   {
-    const int clamp = sheet.fraction(rest.row(v))(load.axis()) > 0.5 ? 1 : 0;
+    const double place = sheet.fraction(rest.row(v))(load.axis());
+    const int clamp    = place > 0.5 ? 1 : 0;
+    if (std::abs(place - clamp) > 2. * meshes::image_tolerance / std::min(sheet.n1, sheet.n2))
+      continue; // beside the clamp, and held all the same
     sum.row(clamp) += positions.row(v) - rest.row(v);
     n(clamp) += 1.;
   }

@@ -2,6 +2,9 @@
 // Cases of a strain study: the rows of one cell, load and reference.
 #pragma once
 
+#include "verification/law/laws.h"
+#include "verification/reference/loads.h"
+
 #include <algorithm>
 #include <vector>
 

@@ -60,10 +60,10 @@ struct OwedValue
 /// @param published null: none
 OwedValue owed_value(const StressAxis &axis, const PublishedLimitRow *published);
 
-/// Climbs the ladder until an answer is not right, and repeats the last that was, whose numbers
-/// must be the same to the last bit.
+/// Climbs the ladder until an answer is not right, and repeats the last that was, unless it
+/// took long: its numbers must be the same to the last bit.
 /// @param owed values up to it are tried however long they take
-/// @param longest a value that takes longer is the last beyond it [s]
+/// @param longest beyond that, a value that takes longer ends the climb [s]
 /// @param told every rung
 LimitRow climb(const StressAxis &axis, double owed, double longest,
                const std::function<void(const StressRow &)> &told);

@@ -22,7 +22,7 @@ void StressCommand::add(CommandLine &line)
                       "Cells whose axes are climbed (default: made ones)");
   command->add_flag(
     "--quick", arguments->study.is_quick,
-    "Cells of at most 1e4 triangles; beyond published limits, values of at most 2 s");
+    "Cells of at most 1e4 triangles; beyond what is published or promised, values of at most 2 s");
   add_study<StressCommand>(
     line, *command, arguments,
     {"out/CELLS/stress, --quick stress-quick",

@@ -179,9 +179,9 @@ private:
     return static_cast<int>(n_ranks_of(communicator));
   }
 
-  /// The row of an axis, in a table.
+  /// Where the row of an axis stands in a table.
   template <typename Row>
-  static auto row_of(const StressAxis &axis, const std::vector<Row> &rows)
+  static auto find_row(const StressAxis &axis, const std::vector<Row> &rows)
   {
     return std::find_if(rows.begin(), rows.end(),
                         [&](const Row &row) { return row.axis == axis.axis && row.of == axis.of; });
@@ -189,7 +189,7 @@ private:
 
   OwedValue owed_of(const StressAxis &axis) const
   {
-    const auto shipped = row_of(axis, published);
+    const auto shipped = find_row(axis, published);
     return owed_value(axis, !axis.is_shipped || shipped == published.end() ? nullptr : &*shipped);
   }
 
@@ -228,7 +228,7 @@ private:
   {
     for (const StressAxis &one : axes)
     {
-      const auto found = row_of(one, limits->rows());
+      const auto found = find_row(one, limits->rows());
       if (const auto verdict =
             verdict_of(one, found == limits->rows().end() ? LimitRow() : *found, owed_of(one)))
         verdicts.push_back(*verdict);

@@ -16,10 +16,10 @@ namespace homespun::verification
 struct StressStudyOptions : StudyOptions
 {
   int most_triangles = 1000000; ///< of the largest cell
-  double longest     = 10.;     ///< a value that takes longer is the last of its axis [s]
+  double longest     = 10.;     ///< beyond what is owed a value that takes longer ends its axis [s]
 };
 
-/// Cells of at most 1e4 triangles, values of at most 2 s.
+/// Cells of at most 1e4 triangles; beyond what is owed, values of at most 2 s.
 inline void make_quick(StressStudyOptions &options)
 {
   options.is_quick       = true;

@@ -25,7 +25,8 @@ from read import schema  # noqa: E402
 from read.stored import BadResults  # noqa: E402
 import peers_section  # noqa: E402
 import results_page  # noqa: E402
-from readme_numbers import faults_of, is_printed_as, read_tables  # noqa: E402
+from readme_numbers import (faults_of, is_printed_as, read_tables,  # noqa: E402
+                            with_twins_marked, without_twins)
 
 TABLES = {"errors.csv": [{"cell": "layered", "load": "strip-1", "affine": "51.27",
                           "localized": "49.71", "bar": "1.44"},
@@ -226,11 +227,15 @@ class ResultsPageTest(unittest.TestCase):
         rows = [published_row("good", "0.01"), published_row("good", "0.1"),
                 published_row("good", "0.01", load="strip-2", full="4.03"),
                 published_row("good", "0.1", load="strip-2", full="4.2"),
-                published_row("lost", "0.1", full="", load="strip-1"),
-                published_row("lost", "0.1", full="", load="strip-2")]
-        self.assertEqual(results_page.once(rows), [rows[0], rows[1], rows[3], rows[4]])
+                *(published_row("lost", "0.1", load=load, **dict.fromkeys(of_strain.METHODS, ""))
+                  for load in ("strip-1", "strip-2"))]
+        self.assertEqual([row["twin"] for row in with_twins_marked(rows)], [""] * len(rows))
+        rows[3]["full"] = "4.1"  # equal at one strain is not enough, and unreached no sign
+        marked = with_twins_marked(rows)
+        self.assertEqual([row["cell"] for row in without_twins(marked)],
+                         ["good", "good", "lost", "lost"])
         self.assertEqual([line.split(" | ")[-2]
-                          for line in results_page.summary(rows).splitlines()[2:]],
+                          for line in results_page.summary(marked).splitlines()[2:]],
                          ["0 / 0 / 1", "0 / 0 / 3"])
 
     def test_every_row_in_which_a_method_loses_is_listed(self):

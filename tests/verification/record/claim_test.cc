@@ -95,7 +95,7 @@ TEST(tripwire_claim, what_is_owed_and_was_not_judged_fails)
 TEST(tripwire_claim, one_answer_of_several_is_enough_and_another_claim_may_say_why_there_is_none)
 {
   const Words level                 = {{"cell", "a"}, {"load", "strip-1"}};
-  const std::vector<OwedClaim> owed = {{"strain-squared", level, "equilibria"}};
+  const std::vector<OwedClaim> owed = {{"strain-squared", level, {"equilibria"}}};
   Words words                       = level;
   words.insert({{"reference", "biot"}, {"note", ""}});
   const auto n_missing = [&](const Verdict &verdict)
@@ -106,4 +106,10 @@ TEST(tripwire_claim, one_answer_of_several_is_enough_and_another_claim_may_say_w
   EXPECT_EQ(n_missing(judged("equilibria", words, Outcome::inconclusive, 1.)), 0u);
   words["load"] = "strip-2";
   EXPECT_EQ(n_missing(judged("equilibria", words, Outcome::inconclusive, 1.)), 1u);
+  // That a cell has no bracket does not say of which stiffness.
+  const std::vector<OwedClaim> scaling = {
+    {"scaling", {{"stiffness", "D^H"}}, {"bracket.exists", "bending-bracket.exists"}}};
+  for (const char *id : {"bracket.exists", "bending-bracket.exists"})
+    EXPECT_TRUE(
+      missing_claims(scaling, {judged(id, {{"why", ""}}, Outcome::inconclusive, 0.)}).empty());
 }

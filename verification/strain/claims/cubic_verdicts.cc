@@ -6,7 +6,6 @@
 #include "verification/record/claim.h"
 #include "verification/strain/claims/force_verdicts.h"
 #include "verification/strain/strain_comparison.h"
-#include "verification/strain/validity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +67,8 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
       Verdict verdict =
         at_most("cubic-energy", {{"cell", cell.name}, {"load", name}, {"reference", reference}},
                 std::abs(off) / scale, limit);
-      if (!(limit <= smallness) || strains[1] > elliptic_up_to(levels, cell.name, name, reference))
+      if (!(limit <= smallness) ||
+          !is_sound_up_to(levels, {cell.name, name, strains[1], reference}))
         verdict.outcome = Outcome::inconclusive;
       verdicts.push_back(verdict);
     }

@@ -48,7 +48,8 @@ EdgeResiduals LayeredSheet::left_by(const CellEdges &edges, const double apart) 
     {
       const int axis     = meshes::axis_of_side(static_cast<int>(side));
       const double along = at(1 - axis);
-      if (std::abs(at(axis) - (meshes::is_far_side(static_cast<int>(side)) ? 1. : 0.)) > 1e-9 ||
+      if (std::abs(at(axis) - (meshes::is_far_side(static_cast<int>(side)) ? 1. : 0.)) >
+            2. * meshes::image_tolerance / sheet.n1 ||
           std::min(along, 1. - along) < apart - 1e-9)
         continue;
       const double size = axis == load.axis()
@@ -85,15 +86,15 @@ struct WorstEdge
            const bool is_short)
   {
     const auto is_of_order_0 = [](const std::array<EdgeResidual, 2> &all)
-    { return all[1].mean > 0.75 * all[0].mean; }; // first order halves
+    { return !(all[1].mean <= 0.75 * all[0].mean); }; // first order halves
     const bool is_enough = with[0].mean < without[0].mean;
     const double here    = with[!is_enough].mean / without[!is_enough].mean;
-    if (!is_enough && !is_of_order_0(without))
+    if (!is_enough && !is_of_order_0(without) && !is_of_order_0(with))
       return; // there is nothing to be removed
     const Outcome found = here < 1.                          ? Outcome::pass
                           : is_of_order_0(with) && !is_short ? Outcome::fail
                                                              : Outcome::inconclusive;
-    if (std::isnan(left) || here > left)
+    if (n_cells == 0 || (!std::isnan(left) && !(here <= left)))
     {
       left    = here;
       n_cells = is_enough ? 8 : 16;

@@ -50,12 +50,13 @@ private:
 meshes::CellEdges without_layers(const meshes::CellEdges &edges);
 
 /// Two claims: in the middle half of clamped edges, and of free ones, layers leave less than there
-/// is without them, on sheets of 8 x 8 cells under both strips, the worst edge of all that have
-/// layers and more than rounding without. Where they leave more, 16 x 16 cells are asked. Then an
-/// edge is not judged where what there is without layers is not of order 0 in the cell, as of
-/// stripes along it: there is nothing to remove; FAIL where what layers leave is of order 0, too,
-/// and open where that falls, or where C^H is so anisotropic that the ends of the edge are felt all
-/// along it. A layer that is half as large as it should be passes: the order of what layers leave,
-/// which it changes, takes many more cells. None where no edge is judged.
+/// is without them, on sheets of 8 x 8 cells under both strips, the worst of the edges that
+/// have layers and whose error without them is more than rounding. Where they leave more, 16 x 16
+/// cells are asked. Then an edge is not judged where what there is without layers is not of order 0
+/// in the cell, as of stripes along it, nor what they leave: there is nothing to remove; FAIL where
+/// what layers leave is of order 0, too, and open where that falls, or where C^H is so anisotropic
+/// that the ends of the edge are felt all along it. A layer that is half as large as it should be
+/// passes: the order of what layers leave, which it changes, takes many more cells. None where no
+/// edge is judged.
 std::vector<Verdict> layer_checks(const homogenization::UnitCell &cell, const CellModel &model);
 } // namespace homespun::verification

@@ -38,9 +38,9 @@ void add_case(const StrainStudyOptions &options, const Words &load, const std::s
   if (has_claim_on_laws(options, law_of(reference)))
     owed.push_back({"laws-agree", words});
   if (reference != name_of(Law::linear))
-    owed.push_back({"minimum", words, "equilibria"});
+    owed.push_back({"minimum", words, {"equilibria"}});
   else if (!Load(load.at("load")).is_periodic() && has(options.methods, "affine"))
-    owed.push_back({"force-of-reference", load, "equilibria"});
+    owed.push_back({"force-of-reference", load, {"equilibria"}});
 }
 
 /// What is owed of a load against the reference that claims on methods speak of.
@@ -95,6 +95,13 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
       owed.push_back({id, of_cell});
     for (const std::string &reference : options.references)
       owed.push_back({"law-derivatives", {{"cell", cell.name}, {"reference", reference}}});
+    const std::string linear = name_of(Law::linear);
+    if (has(options.references, linear) && options.strains.size() > 1)
+      owed.push_back({"proportional", of_cell, {"equilibria"}});
+    if (options.n_cells > 3 &&
+        std::any_of(options.loads.begin(), options.loads.end(),
+                    [](const std::string &load) { return !Load(load).is_periodic(); }))
+      owed.push_back({"parts-of-mean", of_cell, {"equilibria"}});
     const std::string main = main_reference(options.references);
     for (const std::string &load : options.loads)
     {
@@ -114,6 +121,8 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
   }
   for (const char *id : {"norms", "read-back"})
     owed.push_back({id, {}});
+  if (asked.n_cells_of_error_bar > 0)
+    owed.push_back({"triangles", {}});
   return owed;
 }
 
@@ -125,8 +134,9 @@ std::vector<Verdict> cell_verdicts(const StrainOutput &output, const StrainStudy
   const std::vector<LevelRow> &levels = output.levels.rows();
   std::vector<Verdict> verdicts       = cubic_verdicts(forces, levels, options, cell, homogenized);
   for (const auto &some :
-       {verdicts_of_laws(forces, levels, options, cell), verdicts_of_moments(forces, options, cell),
-        verdicts_of_travel(forces, options, cell), verdicts_of_parts(output.strain.rows(), cell),
+       {verdicts_of_laws(forces, levels, options, cell, homogenized.stiffness),
+        verdicts_of_moments(forces, options, cell), verdicts_of_travel(forces, options, cell),
+        verdicts_of_parts(output.strain.rows(), cell),
         verdicts_of_proportions(output.strain.rows(), forces, cell, left_in_stress(cell))})
     verdicts.insert(verdicts.end(), some.begin(), some.end());
   return verdicts;

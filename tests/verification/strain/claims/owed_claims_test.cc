@@ -2,6 +2,7 @@
 // What vanishes from a strain study is noticed: made-up rows of a whole study, and faults in them.
 #include "verification/strain/claims/study_claims.h"
 
+#include "tests/homogenization/cell/cells.h"
 #include "verification/strain/claims/force_verdicts.h"
 #include "verification/strain/claims/strain_verdicts.h"
 
@@ -23,6 +24,8 @@ struct MadeUpStudy
     options.references = {"biot"};
     options.methods    = {"affine", "localized"};
     options.budget     = false;
+    cell               = homespun::tests::cell_of(homespun::tests::square_lattice(0.01), 2, 2,
+                                                  homespun::tests::soft_and_hard(), homespun::tests::halves);
     cell.name          = "cell";
     for (const std::string &load : options.loads)
       for (const double strain : options.strains)
