@@ -24,9 +24,9 @@ struct MadeUpStudy
     options.references = {"biot"};
     options.methods    = {"affine", "localized"};
     options.budget     = false;
-    cell               = homespun::tests::cell_of(homespun::tests::square_lattice(0.01), 2, 2,
-                                                  homespun::tests::soft_and_hard(), homespun::tests::halves);
-    cell.name          = "cell";
+    using namespace homespun::tests;
+    cell      = cell_of(square_lattice(0.01), 2, 2, soft_and_hard(), halves);
+    cell.name = "cell";
     for (const std::string &load : options.loads)
       for (const double strain : options.strains)
       {
