@@ -85,7 +85,7 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, asked_for, I, 0.), "as narrow as"), Outcome::fail);
 
   homogenization::Bracket bracket;
-  bracket.lower = 0.9 * I, bracket.upper = I, bracket.width = 0.1;
+  bracket.lower = 0.9 * I, bracket.upper = bracket.stiffness = I, bracket.width = 0.1;
   cell_bracket.bracket       = bracket;
   cell_bracket.on_given_mesh = I;
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::pass);
@@ -124,11 +124,11 @@ TEST(tripwire_bracket_checks, a_soft_direction_counts_as_much_as_a_stiff_one)
 {
   CellBracket cell_bracket;
   homogenization::Bracket bracket;
-  bracket.upper              = Eigen::Vector3d(1e6, 1., 1.).asDiagonal();
-  bracket.lower              = bracket.upper;
-  cell_bracket.bracket       = bracket;
-  cell_bracket.on_given_mesh = bracket.upper;
-  Eigen::Matrix3d off        = bracket.upper;
+  bracket.upper = Eigen::Vector3d(1e6, 1., 1.).asDiagonal();
+  bracket.lower = bracket.stiffness = bracket.upper;
+  cell_bracket.bracket              = bracket;
+  cell_bracket.on_given_mesh        = bracket.upper;
+  Eigen::Matrix3d off               = bracket.upper;
   off(1, 1) *= 1. + 1e-4; // 1e-10 of the largest entry
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, off, 0.), "Both codes agree"), Outcome::fail);
 }
