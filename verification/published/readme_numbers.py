@@ -107,7 +107,8 @@ TWINS = {"strip-2": "strip-1", "cantilever-2": "cantilever-1"}  # loads that dif
 
 def with_twins_marked(rows):
     """Rows, with `twin` where one says what that of its twin load has said: the cell looks the same
-    along both axes, as all its errors under both loads tell, which are equal to 3 %.
+    along both axes, as all its errors under both loads tell. Two errors are the same that differ by
+    no more than the sum of their bars; without bars, that are equal.
     """
     places = {
         (row["cell"], row["load"], row.get("strain"), row.get("what")): row
@@ -118,15 +119,17 @@ def with_twins_marked(rows):
     for (cell, load, *level), row in places.items():
         twin = places.get((cell, TWINS.get(load), *level), {})
         pairs.setdefault((cell, load), []).extend(
-            (row[name], twin.get(name)) for name in row if f"{name}_bar" in row
+            (row[name], twin.get(name), row[f"{name}_bar"], twin.get(f"{name}_bar"))
+            for name in row if f"{name}_bar" in row
         )
     alike = {
         key
         for key, some in pairs.items()
-        if any(one for one, _ in some)
+        if any(one for one, *_ in some)
         and all(
-            one == two or one and two and math.isclose(float(one), float(two), rel_tol=0.03)
-            for one, two in some
+            one == two
+            or all((one, two, *bars)) and abs(float(one) - float(two)) <= sum(map(float, bars))
+            for one, two, *bars in some
         )
     }
     return [

@@ -68,7 +68,7 @@ class ResultsPageTest(unittest.TestCase):
     def test_what_a_row_says_again_counts_once(self):
         rows = [published_row("good", "0.01"), published_row("good", "0.1"),
                 published_row("good", "0.01", load="strip-2", full="4.03"),
-                published_row("good", "0.1", load="strip-2", full="4.2"),
+                published_row("good", "0.1", load="strip-2", full="4.3"),
                 *(published_row("lost", "0.1", load=load, **dict.fromkeys(of_strain.METHODS, ""))
                   for load in ("strip-1", "strip-2"))]
         self.assertEqual([row["twin"] for row in with_twins_marked(rows)], [""] * len(rows))
