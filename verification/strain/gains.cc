@@ -116,24 +116,22 @@ std::set<double> strains_of_methods(const std::vector<double> &asked)
   return judged;
 }
 
-bool may_be_base(const StrainRow &row, const StrainRow &of)
-{
-  if (!is_reached_in(row, of) || row.strain != of.strain || !std::isfinite(row.mean))
-    return false;
-  const Law law = law_of(of.reference);
-  const Load load(of.load);
-  const Method method = under(Method(of.method), law, load),
-               its    = under(Method(row.method), law, load);
-  return its.has_terms_of(under(method.without(Term::micro), law, load)) ||
-         (method.has(Term::p2) && its.has_terms_of(under(Method("affine+p2"), law, load)));
-}
-
 const StrainRow *base_of(const std::vector<StrainRow> &rows, const StrainRow &of)
 {
+  const Law law = law_of(of.reference);
+  const Load load(of.load);
+  const Method method   = under(Method(of.method), law, load),
+               coarse   = under(method.without(Term::micro), law, load),
+               p2       = under(Method("affine+p2"), law, load);
   const StrainRow *base = nullptr;
   for (const StrainRow &row : rows)
-    if (may_be_base(row, of) && (base == nullptr || row.mean < base->mean))
-      base = &row;
+    if (is_reached_in(row, of) && row.strain == of.strain && std::isfinite(row.mean))
+    {
+      const Method its = under(Method(row.method), law, load);
+      if ((its.has_terms_of(coarse) || (method.has(Term::p2) && its.has_terms_of(p2))) &&
+          (base == nullptr || row.mean < base->mean))
+        base = &row;
+    }
   return base;
 }
 

@@ -13,10 +13,6 @@
 
 namespace homespun::verification
 {
-/// Whether a row is of the level of another and of a coarse cloth that may be the base of its
-/// method.
-bool may_be_base(const StrainRow &row, const StrainRow &of);
-
 /// The base of a row's method: of the rows of its level that have its terms but for `micro`, and,
 /// where it has the term `p2`, of `affine+p2`, the one with the smaller error. Of `full` that is
 /// the better of `full-micro` and `affine+p2`, because terms of edges clamp the coarse cloth beside

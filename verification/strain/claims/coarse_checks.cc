@@ -110,8 +110,11 @@ std::vector<Verdict> coarse_checks(const homogenization::UnitCell &cell, const C
     for (const Verdict &check : layer_checks(cell, model))
       checks.push_back(check);
   }
-  catch (const meshes::NotConverged &) // the study's own sheets say so
+  catch (const meshes::NotConverged &)
   {
+    for (const char *id : {"layers.clamped", "layers.free"})
+      checks.push_back(judged(id, {{"cell", cell.name}, {"cells", 8}}, Outcome::inconclusive,
+                              std::numeric_limits<double>::quiet_NaN()));
   }
   return checks;
 }

@@ -15,7 +15,8 @@ namespace homespun::verification
 ///   with the strain, of order 1; open where it finds no equilibrium, and where C^H is ten
 ///   thousand times stiffer in one direction than in another
 /// - six-node triangles of C^H have the energy of a quadratic displacement in closed form
-/// - those of layer_checks(), where edges are known, of cells of at most 8000 triangles
+/// - those of layer_checks(), where edges are known, of cells of at most 8000 triangles; open where
+///   a sheet finds no equilibrium
 std::vector<Verdict> coarse_checks(const homogenization::UnitCell &cell,
                                    const localization::CellModel &model);
 } // namespace homespun::verification

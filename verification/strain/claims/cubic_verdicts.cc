@@ -9,26 +9,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace homespun::verification
 {
 namespace
 {
 /// The stress beyond that of C^H over strain squared; not a number where it was not reached.
-double beyond_linear(const std::vector<ForceRow> &rows, const StrainLevel &level)
+double beyond_linear(const std::vector<ForceRow> &rows, ForceRow level)
 {
-  double resolved = std::numeric_limits<double>::quiet_NaN(), coarse = resolved;
-  for (const ForceRow &row : rows)
-    if (row.cell == level.cell && row.load == level.load && row.reference == name_of(level.law) &&
-        row.strain == level.strain)
-    {
-      if (row.method == "resolved")
-        resolved = row.per_width;
-      if (row.method == "coarse")
-        coarse = row.per_width;
-    }
-  return (resolved - coarse) / (level.strain * level.strain);
+  level.method          = "resolved";
+  const double resolved = per_width_of(rows, level);
+  level.method          = "coarse";
+  return (resolved - per_width_of(rows, level)) / (level.strain * level.strain);
 }
 } // namespace
 
@@ -58,8 +50,8 @@ std::vector<Verdict> cubic_verdicts(const std::vector<ForceRow> &rows,
       const Eigen::Matrix2d F = load.gradient(1.);
       const Eigen::Vector3d unit(F(0, 0) - 1., F(1, 1) - 1., F(0, 1) + F(1, 0));
       const double scale  = unit.dot(homogenized.stiffness * unit),
-                   first  = beyond_linear(rows, {cell.name, name, law, strains[0]}),
-                   second = beyond_linear(rows, {cell.name, name, law, strains[1]}),
+                   first  = beyond_linear(rows, {cell.name, name, strains[0], reference}),
+                   second = beyond_linear(rows, {cell.name, name, strains[1], reference}),
                    slope  = (second - first) / (strains[1] - strains[0]),
                    limit  = safety_unconfirmed * std::abs(slope * strains[0]) / scale +
                            left_in_stress(cell) / strains[0],

@@ -7,15 +7,16 @@
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/record/claim.h"
+#include "verification/reference/fine_reference.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/strain_cases.h"
-#include "verification/strain/strain_comparison.h"
 #include "verification/strain/validity.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
-#include <tuple>
+#include <optional>
 #include <utility>
 
 namespace homespun::verification
@@ -61,6 +62,14 @@ std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
   return verdicts;
 }
 
+double per_width_of(const std::vector<ForceRow> &rows, const ForceRow &of)
+{
+  const auto found =
+    std::find_if(rows.begin(), rows.end(),
+                 [&](const ForceRow &row) { return keys_of_row(row) == keys_of_row(of); });
+  return found == rows.end() ? ForceRow::none : found->per_width;
+}
+
 bool has_claim_on_laws(const StrainStudyOptions &options, const Law law)
 {
   const auto &all = options.references;
@@ -87,15 +96,8 @@ std::vector<Verdict> verdicts_of_laws(const std::vector<ForceRow> &rows,
                                       const homogenization::UnitCell &cell,
                                       const Eigen::Matrix3d &stiffness)
 {
-  constexpr double smallness  = 0.1;
-  constexpr double difference = 1e-5; // of the affine motion's energy, a central one
-  const auto pull             = [&](const ForceRow &of)
-  {
-    const auto found =
-      std::find_if(rows.begin(), rows.end(),
-                   [&](const ForceRow &row) { return keys_of_row(row) == keys_of_row(of); });
-    return found == rows.end() ? ForceRow::none : found->per_width;
-  };
+  constexpr double smallness        = 0.1;
+  constexpr double difference       = 1e-5; // of the affine motion's energy, a central one
   const std::vector<double> strains = small_strains(options.strains);
   double anisotropy                 = contrast_of({stiffness});
   for (const Eigen::Matrix3d &C : cell.stiffness_of_phase())
@@ -112,8 +114,8 @@ std::vector<Verdict> verdicts_of_laws(const std::vector<ForceRow> &rows,
       {
         const auto off = [&](const double strain)
         {
-          return pull({cell.name, load, strain, reference, method}) /
-                   pull({cell.name, load, strain, name_of(Law::linear), method}) -
+          return per_width_of(rows, {cell.name, load, strain, reference, method}) /
+                   per_width_of(rows, {cell.name, load, strain, name_of(Law::linear), method}) -
                  1.;
         };
         const double first = off(strains[0]), second = off(strains[1]),
@@ -142,6 +144,26 @@ double left_in_stress(const homogenization::UnitCell &cell)
          std::sqrt(contrast_of(cell.stiffness_of_phase()) * 0.5 * cell.mesh.n_triangles());
 }
 
+namespace
+{
+/// The claim on the worst row of a cell and load, by a number; rows without one decide nothing.
+Verdict worst_row(const std::string &id, const Words &of, const std::vector<ForceRow> &rows,
+                  const double limit,
+                  const std::function<std::optional<double>(const ForceRow &)> &number_of)
+{
+  double worst = 0.;
+  int n_rows   = 0;
+  for (const ForceRow &row : rows)
+    if (row.cell == of.at("cell") && row.load == of.at("load"))
+      if (const std::optional<double> number = number_of(row))
+      {
+        worst = larger(worst, *number);
+        ++n_rows;
+      }
+  return open_without(n_rows, at_most(id, of, worst, limit));
+}
+} // namespace
+
 std::vector<Verdict> verdicts_of_moments(const std::vector<ForceRow> &rows,
                                          const StrainStudyOptions &options,
                                          const homogenization::UnitCell &cell)
@@ -152,21 +174,16 @@ std::vector<Verdict> verdicts_of_moments(const std::vector<ForceRow> &rows,
     const Load load(name);
     if (!load.is_periodic() || load.has_free_sides())
       continue;
-    double worst = 0.;
-    int n_rows   = 0;
-    for (const ForceRow &row : rows)
-      if (row.cell == cell.name && row.load == name)
-      {
-        Eigen::Matrix2d moment;
-        moment << row.stress_11, row.stress_12, row.stress_21, row.stress_22;
-        if (law_of(row.reference) != Law::linear)
-          moment *= load.gradient(row.strain).transpose();
-        worst = larger(worst, std::abs(moment(0, 1) - moment(1, 0)) / moment.norm());
-        ++n_rows;
-      }
-    verdicts.push_back(
-      open_without(n_rows, at_most("no-moment", {{"cell", cell.name}, {"load", name}}, worst,
-                                   left_in_stress(cell))));
+    const auto moment_of = [&](const ForceRow &row)
+    {
+      Eigen::Matrix2d moment;
+      moment << row.stress_11, row.stress_12, row.stress_21, row.stress_22;
+      if (law_of(row.reference) != Law::linear)
+        moment *= load.gradient(row.strain).transpose();
+      return std::abs(moment(0, 1) - moment(1, 0)) / moment.norm();
+    };
+    verdicts.push_back(worst_row("no-moment", {{"cell", cell.name}, {"load", name}}, rows,
+                                 left_in_stress(cell), moment_of));
   }
   return verdicts;
 }
@@ -181,21 +198,18 @@ std::vector<Verdict> verdicts_of_travel(const std::vector<ForceRow> &rows,
     const Load load(name);
     if (load.is_periodic())
       continue;
-    const double apart = options.n_cells * cell.lattice.vectors.row(load.axis()).norm();
-    double worst       = 0.;
-    int n_rows         = 0;
-    const double rounding =
-      4. * meshes::epsilon * (apart + cell.mesh.vertices.cwiseAbs().maxCoeff()); // of a motion [m]
-    for (const ForceRow &row : rows)
-      if (row.cell == cell.name && row.load == name && row.method != "affine" &&
-          rounding < meshes::image_tolerance * row.strain * apart)
-      {
-        ++n_rows;
-        worst = larger(worst, std::abs(row.travel / (row.strain * apart) - 1.));
-      }
-    verdicts.push_back(
-      open_without(n_rows, at_most("clamp-travel", {{"cell", cell.name}, {"load", name}}, worst,
-                                   2. * meshes::image_tolerance)));
+    const double apart = options.n_cells * cell.lattice.vectors.row(load.axis()).norm(),
+                 rounding =
+                   4. * meshes::epsilon * (apart + cell.mesh.vertices.cwiseAbs().maxCoeff());
+    const auto off = [&](const ForceRow &row) -> std::optional<double>
+    {
+      const double expected = row.strain * apart;
+      if (row.method == "affine" || rounding >= meshes::image_tolerance * expected)
+        return {};
+      return std::abs(row.travel / expected - 1.);
+    };
+    verdicts.push_back(worst_row("clamp-travel", {{"cell", cell.name}, {"load", name}}, rows,
+                                 2. * meshes::image_tolerance, off));
   }
   return verdicts;
 }

@@ -16,6 +16,9 @@ namespace homespun::verification
 /// where there are no two.
 std::vector<double> small_strains(const std::vector<double> &asked);
 
+/// The force per width of a row with these keys; not a number where there is none [N/m].
+double per_width_of(const std::vector<ForceRow> &rows, const ForceRow &of);
+
 /// For every cell and sheet load in linear theory: the reference pulls back, with a force no larger
 /// than that of the affine motion, which is one of the motions it may choose.
 std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows);

@@ -34,7 +34,8 @@ std::vector<Verdict> verdicts_of_proportions(const std::vector<StrainRow> &rows,
 /// the third one, in the mean and at the worst vertex.
 Verdict verdict_of_triangles(const std::vector<UncertaintyRow> &rows);
 
-/// gains.csv: a row's base is one that may_be_base(), and none of those has a smaller error.
+/// gains.csv: the error of a row's base is not larger than that of its method without microscopic
+/// displacement or, where it has six-node coarse triangles, of `affine+p2`.
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows);
 
 /// uncertainty.csv, for every cell and sheet load in linear theory: the force, twice the energy
