@@ -55,8 +55,8 @@ meshes::CellEdges without_layers(const meshes::CellEdges &edges);
 /// cells are asked. Then an edge is not judged where what there is without layers is not of order 0
 /// in the cell, as of stripes along it, nor what they leave: there is nothing to remove; FAIL where
 /// what layers leave is of order 0, too, and open where that falls, or where C^H is so anisotropic
-/// that the ends of the edge are felt all along it. A layer that is half as large as it should be
-/// passes: the order of what layers leave, which it changes, takes many more cells. None where no
-/// edge is judged.
+/// that the homogenized strain varies over less than a cell of that sheet. A layer that is half as
+/// large as it should be passes: the order of what layers leave, which it changes, takes many more
+/// cells. None where no edge is judged.
 std::vector<Verdict> layer_checks(const homogenization::UnitCell &cell, const CellModel &model);
 } // namespace homespun::verification
