@@ -139,8 +139,7 @@ class GalleryTest(unittest.TestCase):
         for cores in (1, 2):
             folder = tempfile.mkdtemp()
             self.addCleanup(shutil.rmtree, folder)
-            with mock.patch.object(os, "sched_getaffinity", return_value=range(cores)), \
-                    mock.patch.object(gallery, "TOGETHER", 2):
+            with mock.patch.object(os, "sched_getaffinity", return_value=range(cores)):
                 made = gallery.Gallery(folder)
                 pictures = [add(name, "default") for name in "abcde"]
                 made.finish()

@@ -3,8 +3,8 @@
 inlines them into the page.
 
 Laying figures out and writing them takes most of the time of a page, and no figure knows of
-another: they are saved by copies of this process, as many at once as there are cores, while the
-next are drawn. Each saves several, because a copy takes as long as two figures.
+another: each is saved by a copy of this process, as many at once as there are cores, while the
+next are drawn.
 """
 import base64
 import functools
@@ -32,7 +32,6 @@ METADATA = {  # the same input gives the same file
     "pdf": {"CreationDate": None, "Producer": None, "Creator": "homespun"},
     "svg": {"Date": None, "Creator": "homespun"},
 }
-TOGETHER = 8  # figures that one process saves
 FULL_IMAGES = 6  # that the page takes at this resolution; more of them become coarser
 
 
@@ -146,8 +145,7 @@ class Gallery:
         learn_to_draw(self.kinds + ("png",))
         self.names = set()
         self.at_once = len(os.sched_getaffinity(0))
-        self.waiting = []  # Picture, and what save() needs
-        self.saving = {}  # connection: process and Pictures
+        self.saving = {}  # connection: process and Picture
 
     def tell(self, name):
         """What is drawn now, on a line that rewrites itself; nothing where no terminal shows it."""
@@ -176,47 +174,40 @@ class Gallery:
         name = self.own_name(name)
         self.tell(name)
         picture = Picture(name, "", caption, 0, view=in_page(view))
-        self.waiting.append((picture, (figure, name, as_image, table, plotted)))
         pyplot.close(figure)
-        if len(self.waiting) == TOGETHER:
-            self.start(TOGETHER)
+        self.start(picture, (figure, name, as_image, table, plotted))
         return picture
 
-    def start(self, count):
-        """Has so many of the figures that wait saved, by a process of their own where another core
-        could draw meanwhile.
+    def start(self, picture, figure):
+        """Has a figure saved, by a process of its own where another core could draw meanwhile.
+
+        @param figure what save() takes
         """
-        pictures, figures = zip(*self.waiting[:count])
-        del self.waiting[:count]
         if self.at_once == 1:
-            for picture, figure in zip(pictures, figures):
-                picture.take(self.save(*figure))
+            picture.take(self.save(*figure))
             return
+        self.wait(self.at_once - 1)
         theirs, mine = multiprocessing.Pipe(duplex=False)
         process = multiprocessing.get_context("fork").Process(
-            target=self.send_saved, args=(mine, figures), daemon=True
+            target=self.send_saved, args=(mine, figure), daemon=True
         )
         process.start()
         mine.close()
-        self.saving[theirs] = (process, pictures)
-        self.wait(self.at_once - 1)
+        self.saving[theirs] = (process, picture)
 
-    def send_saved(self, to, figures):
+    def send_saved(self, to, figure):
         """save(), in a process of its own: what it returns or raises goes to the one that asked."""
         gc.disable()  # it ends before there is much to collect
         try:
-            to.send([self.save(*figure) for figure in figures])
+            to.send(self.save(*figure))
         except Exception as error:  # pylint: disable=broad-exception-caught
             to.send(fault_of_system(error) or error)
 
     def finish(self):
-        """Saves the figures that wait, as many on each core, and waits until all are saved.
+        """Waits until all figures are saved.
 
         @throws what went wrong with one of them
         """
-        share = -(-len(self.waiting) // self.at_once)
-        while self.waiting:
-            self.start(share)
         self.wait(0)
 
     def wait(self, unfinished):
@@ -226,17 +217,15 @@ class Gallery:
         """
         while len(self.saving) > unfinished:
             for theirs in connection.wait(list(self.saving)):
-                process, pictures = self.saving.pop(theirs)
+                process, picture = self.saving.pop(theirs)
                 try:
                     saved = theirs.recv()
                 except EOFError:
-                    names = ", ".join(picture.name for picture in pictures)
-                    saved = RuntimeError(f"saving the figures {names} ended without a word")
+                    saved = RuntimeError(f"saving the figure {picture.name} ended without a word")
                 process.join()
                 if isinstance(saved, Exception):
                     raise saved
-                for picture, files in zip(pictures, saved):
-                    picture.take(files)
+                picture.take(saved)
 
     def save(self, figure, name, as_image, table, plotted):
         """The files of a figure, and source, width, endings and plot of its Picture."""
