@@ -147,8 +147,8 @@ class GalleryTest(unittest.TestCase):
                     self.assertIn(f"curve of {picture.name}", picture.plot)
                 self.assertEqual(sorted(os.listdir(folder)),
                                  [f"{name}.{kind}" for name in "abcde" for kind in ("csv", "svg")])
-                add("steps", "steps-post")
                 with self.assertRaisesRegex(ValueError, "`curve of steps` is drawn with"):
+                    add("steps", "steps-post")
                     made.finish()
 
 
