@@ -106,8 +106,7 @@ verification::AssessedCell assessed(const UnitCell &cell, const Choices &choices
 {
   const auto silent = [](const std::string &) {};
   homogenization::HomogenizationOptions options;
-  options.order  = choices.order;
-  options.solver = homogenization::CellSolver::fastest;
+  options.order = choices.order;
   if (verification::too_dear_second_order(cell, options).empty())
     options.second_order = meshes::laws_with(&meshes::LawProperties::has_second_order);
   verification::AssessedCell result = verification::assess(cell, options, MPI_COMM_SELF);

@@ -35,7 +35,7 @@ struct HomogenizationOptions
   /// Of |residual|, relative to the root of the sum of squares of the element loads; of the energy
   /// of the error, (100 tolerance)^2 of that of equal stress in all phases.
   double tolerance  = 1e-11;
-  CellSolver solver = CellSolver::multigrid;
+  CellSolver solver = CellSolver::fastest;
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
   /// Whose quadratic modes and cubic energy are computed too: six more right-hand sides each.
   std::vector<Law> second_order;

@@ -173,7 +173,6 @@ void add_estimate(const UnitCell &cell, const unsigned long max_dofs, const MPI_
     return;
   homogenization::HomogenizationOptions finer = assessed.options;
   finer.order                                 = 2;
-  finer.solver                                = homogenization::CellSolver::fastest;
   finer.pieces.clear();
   finer.second_order.clear();
   ++finer.refine;

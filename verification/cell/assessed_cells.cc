@@ -33,7 +33,6 @@ AssessedCell by_p1(const UnitCell &cell, const std::vector<Law> &second_order,
 {
   homogenization::HomogenizationOptions p1;
   p1.order              = 1;
-  p1.solver             = homogenization::CellSolver::fastest;
   p1.second_order       = second_order;
   AssessedCell assessed = assess(cell, p1, communicator);
   BracketOptions bracket;

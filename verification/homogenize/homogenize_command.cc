@@ -33,7 +33,6 @@ void HomogenizeCommand::add(CommandLine &line)
     ->check(CLI::Range(0, 8))
     ->capture_default_str();
   using homogenization::CellSolver;
-  arguments->study.solve.solver = CellSolver::fastest;
   std::map<std::string, CellSolver> solvers;
   for (const CellSolver solver : {CellSolver::fastest, CellSolver::direct, CellSolver::multigrid})
     solvers[homogenization::name_of(solver)] = solver;

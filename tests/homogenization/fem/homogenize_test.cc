@@ -243,7 +243,6 @@ TEST(exact_homogenize, direct_and_multigrid_solvers_agree_on_stiffness_and_displ
         tests::cell_of(tests::skewed_lattice(), 64, 64, phases, tests::square_inclusion);
       HomogenizationOptions options;
       options.order                   = order;
-      options.solver                  = CellSolver::fastest;
       const Homogenization of_fastest = homogenize(cell, options, MPI_COMM_SELF);
       options.solver                  = CellSolver::direct;
       const Homogenization direct     = homogenize(cell, options, MPI_COMM_SELF);

@@ -138,7 +138,6 @@ TEST(bound_assessed_cell, the_bar_of_a_cell_without_a_bracket_holds_its_stiffnes
   const UnitCell cell = inclusion();
   homogenization::HomogenizationOptions finest;
   finest.refine               = 3;
-  finest.solver               = homogenization::CellSolver::fastest;
   const Eigen::Matrix3d limit = homogenization::homogenize(cell, finest, MPI_COMM_SELF).stiffness;
   for (const unsigned int order : {1u, 2u})
   {

@@ -49,7 +49,6 @@ meshes::HomogenizedCell homogenized(const UnitCell &cell, const std::vector<Law>
 {
   homogenization::HomogenizationOptions options;
   options.order        = 1; // as the reference
-  options.solver       = homogenization::CellSolver::fastest;
   options.tolerance    = 1e-13;
   options.second_order = second_order;
   return homogenization::homogenized_cell(

@@ -20,7 +20,6 @@ meshes::HomogenizedCell homogenized(const UnitCell &cell)
 {
   homogenization::HomogenizationOptions options;
   options.order        = 1; // as the cell at finite strain
-  options.solver       = homogenization::CellSolver::fastest;
   options.tolerance    = 1e-13;
   options.second_order = {Law::biot, Law::green};
   return homogenization::homogenized_cell(

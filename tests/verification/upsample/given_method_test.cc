@@ -33,7 +33,6 @@ meshes::HomogenizedCell cell_of(const std::string &name, const bool is_fitted)
     homogenization::read_unit_cell(std::string(CELLS) + name + ".prm", MPI_COMM_WORLD);
   homogenization::HomogenizationOptions options;
   options.order                = 1;
-  options.solver               = homogenization::CellSolver::fastest;
   options.second_order         = {Law::biot};
   meshes::HomogenizedCell cell = homogenization::homogenized_cell(
     unit, homogenization::homogenize(unit, options, MPI_COMM_WORLD), "");
