@@ -155,6 +155,42 @@ bool has_scaling_checks(const UnitCell &cell)
                       { return homogenization::constants_of(phase).empty(); });
 }
 
+namespace
+{
+/// How far derivatives of a phase's stiffness are from differences, over the stiffness and the size
+/// of the constant.
+double misfit_of_derivatives(const Phase &phase)
+{
+  // What a stiffness divides by, 1 - nu12 nu21, is small near the ends of nu.
+  const double room = 1. - phase.nu12 * phase.nu12 * phase.E2 / phase.E1;
+  double worst      = 0.;
+  for (const MaterialConstant constant : homogenization::constants_of(phase))
+  {
+    const double value = homogenization::value_of(phase, constant);
+    const double unit  = homogenization::unit_of(constant) == "deg" ? 180. / M_PI
+                         : homogenization::unit_of(constant) == "1" ? 1.
+                                                                    : value;
+    const auto off     = [&](const auto &stiffness, const auto &derivative)
+    {
+      const auto slope = [&](const double step) -> Eigen::Matrix3d
+      {
+        return (stiffness(homogenization::changed(phase, constant, value + step)) -
+                stiffness(homogenization::changed(phase, constant, value - step))) /
+               (2. * step);
+      };
+      const double step             = 1e-4 * room * unit;
+      const Eigen::Matrix3d at_zero = (4. * slope(step) - slope(2. * step)) / 3.;
+      return (derivative(phase, constant) - at_zero).norm() * room * unit / stiffness(phase).norm();
+    };
+    worst = larger(
+      worst, off(homogenization::plane_stress_stiffness, homogenization::plane_stress_derivative));
+    worst =
+      larger(worst, off(homogenization::bending_stiffness, homogenization::bending_derivative));
+  }
+  return worst;
+}
+} // namespace
+
 std::vector<Verdict> scaling_checks(const UnitCell &cell, const AssessedCell &assessed)
 {
   // Sums of both sides have the same products of fields: what is left is their rounding.
@@ -185,6 +221,10 @@ std::vector<Verdict> scaling_checks(const UnitCell &cell, const AssessedCell &as
   if (assessed.bending && assessed.bending->bracket)
     checks.push_back(check("D^H", &Sensitivity::of_D, assessed.bending->bracket->stiffness, 3.,
                            rounding + (is_drawn ? assessed.bending->bracket->width : 0.)));
+  double worst = 0.;
+  for (const Phase &phase : cell.phases)
+    worst = larger(worst, misfit_of_derivatives(phase));
+  checks.push_back(at_most("constants", {}, worst, 1e-8));
   return checks;
 }
 

@@ -43,7 +43,9 @@ bool has_scaling_checks(const homogenization::UnitCell &cell);
 /// sums over all phases, of the derivatives above. A phase bends with t^2/12 times its plane
 /// stress stiffness in them, whatever D was made with.
 /// D^H of a drawing is held to the width of its bracket, by which its curves leave it open.
-/// @return a claim for each stiffness that has a bracket; none without has_scaling_checks()
+/// The derivatives of the phases' own stiffness, which these rest on, are held against differences.
+/// @return a claim for each stiffness that has a bracket, and `constants`; none without
+///   has_scaling_checks()
 std::vector<Verdict> scaling_checks(const homogenization::UnitCell &cell,
                                     const AssessedCell &assessed);
 

@@ -58,6 +58,7 @@ std::vector<OwedClaim> owed_of(const homogenization::UnitCell &cell,
       owed.push_back({id, {}});
     if (has_scaling_checks(cell))
     {
+      owed.push_back({"constants", {}, {"bracket.exists"}});
       owed.push_back({"scaling", {{"stiffness", "C^H"}}, {"bracket.exists"}});
       owed.push_back(
         {"scaling", {{"stiffness", "D^H"}}, {"bracket.exists", "bending-bracket.exists"}});

@@ -134,7 +134,7 @@ TEST(exact_sensitivity, moduli_and_thicknesses_scale_stiffness)
   const UnitCell cell               = yarn_in_film();
   AssessedCell its                  = assessed(cell);
   const std::vector<Verdict> checks = scaling_checks(cell, its);
-  ASSERT_EQ(checks.size(), 2u);
+  ASSERT_EQ(checks.size(), 3u);
   for (const Verdict &check : checks)
   {
     EXPECT_EQ(check.outcome, Outcome::pass) << check.claim;

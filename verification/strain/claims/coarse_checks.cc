@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/coarse_checks.h"
 
+#include "localization/coarse_frames.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
 #include "shell/membrane/six_node_membrane.h"
@@ -8,6 +9,7 @@
 #include "verification/method/coarse_model.h"
 #include "verification/record/claim.h"
 #include "verification/strain/claims/layer_checks.h"
+#include "verification/strain/claims/second_order_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -96,12 +98,30 @@ Verdict verdict_of_six_nodes(const homogenization::UnitCell &cell, const Eigen::
   const double found = 0.5 * u.cwiseProduct(shell::linear_membrane_gradient(membrane, u)).sum();
   return at_most("six-node-energy", {{"cell", cell.name}}, std::abs(found / expected - 1.), 1e-10);
 }
+/// Vertex by vertex, each with a third of the triangles around it.
+Verdict verdict_of_mean(const homogenization::UnitCell &cell,
+                        const meshes::HomogenizedCell &homogenized)
+{
+  const meshes::TriangleMesh &mesh = homogenized.mesh;
+  const meshes::Chi chi       = localization::anchored(homogenized, localization::Anchor::mean);
+  const Eigen::VectorXd areas = meshes::signed_areas(mesh);
+  Eigen::VectorXd around      = Eigen::VectorXd::Zero(mesh.n_vertices());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      around(mesh.triangles(t, k)) += areas(t) / 3.;
+  const double size = chi.cwiseAbs().maxCoeff(),
+               mean = (around.transpose() * chi).cwiseAbs().maxCoeff() / areas.sum();
+  return at_most("chi-of-mean-zero", {{"cell", cell.name}}, size > 0. ? mean / size : 0., 1e-10);
+}
 } // namespace
 
 std::vector<Verdict> coarse_checks(const homogenization::UnitCell &cell, const CellModel &model)
 {
-  std::vector<Verdict> checks  = {verdict_of_linear_limit(cell, model),
-                                  verdict_of_six_nodes(cell, model.cell.stiffness)};
+  std::vector<Verdict> checks = {verdict_of_linear_limit(cell, model),
+                                 verdict_of_six_nodes(cell, model.cell.stiffness),
+                                 verdict_of_mean(cell, model.cell)};
+  for (const Verdict &check : second_order_checks(cell, model.cell))
+    checks.push_back(check);
   constexpr int most_triangles = 8000; // whose sheet of 16 x 16 cells fits into any memory
   if (model.edges == nullptr || cell.mesh.n_triangles() > most_triangles)
     return checks;

@@ -91,10 +91,13 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
     const StrainStudyOptions options = options_of(asked, cell);
     const Words of_cell              = {{"cell", cell.name}};
     for (const char *id : {"cell-file-energy", "cell-file-anchor", "phases-turned", "sheet-at-rest",
-                           "linear-limit", "six-node-energy"})
+                           "linear-limit", "six-node-energy", "chi-of-mean-zero"})
       owed.push_back({id, of_cell});
     for (const std::string &reference : options.references)
       owed.push_back({"law-derivatives", {{"cell", cell.name}, {"reference", reference}}});
+    for (const Law law : laws_of_second_order(options))
+      for (const char *id : {"second-order", "cubic-guard"})
+        owed.push_back({id, {{"cell", cell.name}, {"reference", name_of(law)}}});
     const std::string linear = name_of(Law::linear);
     if (has(options.references, linear) && options.strains.size() > 1)
       owed.push_back({"proportional", of_cell, {"equilibria"}});

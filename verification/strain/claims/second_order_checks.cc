@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/claims/second_order_checks.h"
+
+#include "meshes/plain/epsilon.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
+#include "shell/membrane/guarded_cubic.h"
+#include "verification/cell/algebraic_limit.h"
+#include "verification/cell/discretization_distance.h"
+#include "verification/method/coarse_model.h"
+#include "verification/periodic_cell/nonlinear_cell.h"
+#include "verification/record/claim.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+/// Stress and displacement at second order in a strain e: means over s e and −s e, over s².
+struct QuadraticResponse
+{
+  Eigen::Vector3d stress;      ///< [N/m]
+  meshes::Points displacement; ///< of the vertices of a sheet of one cell [m]
+
+  QuadraticResponse operator*(const double factor) const
+  {
+    return {factor * stress, factor * displacement};
+  }
+
+  QuadraticResponse operator-(const QuadraticResponse &other) const
+  {
+    return {stress - other.stress, displacement - other.displacement};
+  }
+
+  /// The stress over that of linear theory, the mean displacement over a side, the larger.
+  double size(const double of_stress, const double side) const
+  {
+    return larger(stress.norm() / of_stress, displacement.rowwise().norm().mean() / side);
+  }
+};
+
+QuadraticResponse of_solved_cells(const NonlinearCell &cell, const meshes::Sheet &sheet,
+                                  const Eigen::Vector3d &e, const double s)
+{
+  const CellState ahead = cell.solve(s * e), behind = cell.solve(-s * e);
+  QuadraticResponse sum = {ahead.stress + behind.stress,
+                           meshes::Points(sheet.mesh.n_vertices(), 2)};
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+    sum.displacement.row(v) =
+      ahead.fluctuation.row(sheet.cell_vertex(v)) + behind.fluctuation.row(sheet.cell_vertex(v));
+  return sum * (0.5 / (s * s));
+}
+
+/// Of the coarse cloth and up-sampling.
+QuadraticResponse of_model(const CoarseModel &model, const Eigen::Vector3d &e, const double s)
+{
+  const Eigen::Matrix2d along{{e(0), 0.5 * e(2)}, {0.5 * e(2), e(1)}};
+  const auto arms       = model.mesh().vertices.rowwise() - model.sheet.origin;
+  QuadraticResponse sum = {Eigen::Vector3d::Zero(),
+                           meshes::Points::Zero(model.sheet.mesh.n_vertices(), 2)};
+  for (const double strain : {s, -s})
+  {
+    CoarseState state;
+    state.strain    = strain;
+    state.positions = state.without_edges = model.mesh().vertices + strain * (arms * along);
+    sum.displacement += model.upsample(state) - model.sheet.mesh.vertices;
+  }
+  sum        = sum * (0.5 / (s * s));
+  sum.stress = model.parts.cubic.front().gradient(e);
+  return sum;
+}
+
+Verdict verdict_of_second_order(const homogenization::UnitCell &cell,
+                                const meshes::HomogenizedCell &homogenized, const Law law)
+{
+  constexpr double smallness = 0.1; // of a limit that decides
+  const Eigen::Vector3d e(1., -0.6, 0.7);
+  const auto stiffness   = cell.stiffness_of_phase();
+  const double of_stress = (homogenized.stiffness * e).norm(),
+               side      = std::sqrt(cell.lattice.area());
+
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+  const Load load("periodic-11");
+  const CoarseModel model({homogenized}, sheet, load, Method("localized+cubic+modes"), law);
+  const NonlinearCell nonlinear(homogenized, stiffness, law);
+  double limit = std::numeric_limits<double>::infinity(),
+         off   = std::numeric_limits<double>::quiet_NaN();
+  // Smaller strains where the cell softens or stiffens sooner, until rounding is as large.
+  for (double s = 1e-3; limit > 0.1 * smallness && s > 1e-6; s *= 0.1)
+    try
+    {
+      const QuadraticResponse near = of_solved_cells(nonlinear, sheet, e, s),
+                              far  = of_solved_cells(nonlinear, sheet, e, 2. * s),
+                              step = (far - near) * (1. / 3.); // from the limit to the nearer one
+      const double its_limit       = safety_unconfirmed * step.size(of_stress, side) +
+                               meshes::epsilon * contrast_of(stiffness) / (s * s);
+      if (!(its_limit < limit))
+        break;
+      limit = its_limit;
+      off   = (of_model(model, e, s) - (near - step)).size(of_stress, side);
+    }
+    catch (const meshes::NotConverged &) // at so little strain that decides nothing
+    {
+    }
+  Verdict verdict = at_most("second-order", {{"cell", cell.name}, {"reference", name_of(law)}}, off,
+                            std::min(limit, 1.));
+  if (!(limit <= smallness))
+    verdict.outcome = Outcome::inconclusive;
+  return verdict;
+}
+
+/// Over the directions of a net and sizes about where the cubic energy is damped, the least
+/// eigenvalue of C + d²G/de² in the metric of C.
+double least_stiffness(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &C)
+{
+  constexpr int n_parts = 24; // of a half circle
+  const Eigen::LLT<Eigen::Matrix3d> cholesky(C);
+  double least = 1.;
+  for (int i = 0; i <= n_parts; ++i)
+    for (int j = 0; j < 2 * n_parts; ++j)
+    {
+      const double polar = i * M_PI / n_parts, azimuth = j * M_PI / n_parts;
+      const Eigen::Vector3d unit = cholesky.matrixU().solve(Eigen::Vector3d(
+        std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)));
+      for (const double size : {0.5, 1., 1.2, 1.4, 1.5, 5. / 3., 2., 4.})
+      {
+        const Eigen::Matrix3d hessian = cubic.hessian(size * cubic.reach() * unit);
+        const Eigen::Matrix3d scaled =
+          cholesky.matrixL().solve(cholesky.matrixL().solve(hessian).transpose());
+        least = std::min(least, 1. + Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+                                       0.5 * (scaled + scaled.transpose()), Eigen::EigenvaluesOnly)
+                                       .eigenvalues()(0));
+      }
+    }
+  return least;
+}
+
+Verdict verdict_of_guard(const homogenization::UnitCell &cell,
+                         const meshes::HomogenizedCell &homogenized, const std::string &law)
+{
+  const shell::GuardedCubic cubic(homogenized.second_order.at(law).energy, homogenized.stiffness);
+  const double least =
+    std::isfinite(cubic.reach()) ? least_stiffness(cubic, homogenized.stiffness) : 1.;
+  return judged("cubic-guard", {{"cell", cell.name}, {"reference", law}},
+                least >= 0.1 * (1. - 1e-9) ? Outcome::pass : Outcome::fail, least);
+}
+} // namespace
+
+std::vector<Verdict> second_order_checks(const homogenization::UnitCell &cell,
+                                         const meshes::HomogenizedCell &homogenized)
+{
+  std::vector<Verdict> checks;
+  for (const auto &[law, of_law] : homogenized.second_order)
+  {
+    checks.push_back(verdict_of_guard(cell, homogenized, law));
+    checks.push_back(verdict_of_second_order(cell, homogenized, law_of(law)));
+  }
+  return checks;
+}
+} // namespace homespun::verification
