@@ -175,9 +175,9 @@ TEST(exact_coarse_checks, coarse_cloths_of_a_cell_without_symmetry_pass_with_edg
   const homogenization::UnitCell cell       = lopsided();
   const meshes::HomogenizedCell homogenized = tests::homogenized(cell);
   const CellEdges edges                     = homogenization::edges_of(cell, {});
-  EXPECT_EQ(coarse_checks(cell, {homogenized, nullptr}).size(), 2u);
+  EXPECT_EQ(coarse_checks(cell, {homogenized, nullptr}).size(), 3u);
   const std::vector<Verdict> checks = coarse_checks(cell, {homogenized, &edges});
-  ASSERT_EQ(checks.size(), 4u);
+  ASSERT_EQ(checks.size(), 5u);
   for (const Verdict &check : checks)
     EXPECT_EQ(check.outcome, Outcome::pass) << check.claim << ": " << check.value;
   EXPECT_LT(checks[0].value, 0.02); // order 1
