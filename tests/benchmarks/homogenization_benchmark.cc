@@ -27,7 +27,8 @@ void homogenize(benchmark::State &state, const unsigned int order, const double 
   const homogenization::UnitCell cell =
     tests::cell_of(tests::square_lattice(0.01), n, n, phases, pattern);
   homogenization::HomogenizationOptions options;
-  options.order = order;
+  options.order  = order;
+  options.solver = homogenization::CellSolver::multigrid;
   homogenization::Homogenization result;
   for (auto _ : state)
     result = homogenization::homogenize(cell, options, MPI_COMM_SELF);

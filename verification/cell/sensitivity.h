@@ -43,11 +43,14 @@ bool has_scaling_checks(const homogenization::UnitCell &cell);
 /// sums over all phases, of the derivatives above. A phase bends with t^2/12 times its plane
 /// stress stiffness in them, whatever D was made with.
 /// D^H of a drawing is held to the width of its bracket, by which its curves leave it open.
-/// The derivatives of the phases' own stiffness, which these rest on, are held against differences.
-/// @return a claim for each stiffness that has a bracket, and `constants`; none without
-///   has_scaling_checks()
+/// @return a claim for each stiffness that has a bracket; none without has_scaling_checks()
 std::vector<Verdict> scaling_checks(const homogenization::UnitCell &cell,
                                     const AssessedCell &assessed);
+
+/// The derivatives of the phases' own stiffness, which sensitivities rest on, held against
+/// differences.
+/// @param cell that has_scaling_checks()
+Verdict constants_check(const homogenization::UnitCell &cell);
 
 /// One constant that lies within value +- range.
 struct UncertainInput

@@ -58,10 +58,13 @@ std::vector<OwedClaim> owed_of(const homogenization::UnitCell &cell,
       owed.push_back({id, {}});
     if (has_scaling_checks(cell))
     {
-      owed.push_back({"constants", {}, {"bracket.exists"}});
-      owed.push_back({"scaling", {{"stiffness", "C^H"}}, {"bracket.exists"}});
+      owed.push_back({"constants", {}});
       owed.push_back(
-        {"scaling", {{"stiffness", "D^H"}}, {"bracket.exists", "bending-bracket.exists"}});
+        {"scaling", {{"stiffness", "C^H"}}, {"bracket.exists", "bracket.no-tolerance"}});
+      owed.push_back({"scaling",
+                      {{"stiffness", "D^H"}},
+                      {"bracket.exists", "bracket.no-tolerance", "bending-bracket.exists",
+                       "bending-bracket.no-tolerance"}});
     }
   }
   return owed;
@@ -117,6 +120,8 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                 [&](const std::string &step)
                 { bracket.tolerance ? progress.note(step) : progress.begin(step); },
                 its);
+              if (has_scaling_checks(cell))
+                its.checks.push_back(constants_check(cell));
               for (const Verdict &check : scaling_checks(cell, its))
                 its.checks.push_back(check);
             });

@@ -112,7 +112,9 @@ std::vector<Verdict> missing_claims(const std::vector<OwedClaim> &owed,
     std::string subject;
     for (const auto &[name, word] : one.of)
       subject += (subject.empty() ? "" : ", ") + word;
-    missing.push_back(judged("owed", {{"owed", one.id}, {"subject", subject}}, Outcome::fail, 1.));
+    missing.push_back(judged(
+      "owed", {{"owed", one.id}, {"subject", subject.empty() ? Word("this cell") : Word(subject)}},
+      Outcome::fail, 1.));
   }
   return missing;
 }

@@ -111,6 +111,7 @@ TEST(exact_shipped_cells, stiff_dots_in_a_soft_ground_are_solved_for_the_ground)
         *modulus *= 2e8; // 1e10 times the ground
   HomogenizationOptions options;
   options.order                      = 1;
+  options.solver                     = CellSolver::multigrid;
   const Eigen::Matrix3d by_gradients = homogenize(cell, options, MPI_COMM_SELF).stiffness,
                         by_factors =
                           bracket(glued(cell.mesh, cell.lattice), cell.stiffness_of_phase(), 1)

@@ -227,6 +227,7 @@ ManufacturedCase cell_case(const Material &material, const unsigned int order,
     homogenization::HomogenizationOptions options;
     options.order     = order;
     options.tolerance = solver_tolerance;
+    options.solver    = homogenization::CellSolver::multigrid; // which has a tolerance
     ManufacturedSolution solution;
     homogenization::CellForces forces;
     forces.load_vector = [&](const int a, const auto &discretization, const auto &constraints)

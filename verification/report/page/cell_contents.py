@@ -35,12 +35,18 @@ def contents_of_cells(results, gallery):
     if len(names) < 2 or len(files) < len(names):
         return [cell_contents(results, name, gallery) for name in names]
     gallery.finish()  # what is still being saved cannot be handed to another process
-    with ProcessPoolExecutor(max_workers=min(len(names), os.cpu_count() or 1)) as pool:
-        return list(pool.map(saved_contents, [results] * len(names), names, [gallery] * len(names)))
+    workers = min(len(names), os.cpu_count() or 1)
+    with ProcessPoolExecutor(max_workers=workers) as pool:
+        return list(pool.map(saved_contents, [results] * len(names), names,
+                             [gallery] * len(names), [workers] * len(names)))
 
 
-def saved_contents(results, name, gallery):
-    """cell_contents() whose pictures are all saved."""
+def saved_contents(results, name, gallery, workers):
+    """cell_contents() whose pictures are all saved.
+
+    @param workers how many processes do this at once, and share the cores
+    """
+    gallery.at_once = max(1, gallery.at_once // workers)
     contents = cell_contents(results, name, gallery)
     gallery.finish()
     return contents

@@ -7,12 +7,14 @@ another: each is saved by a copy of this process, as many at once as there are c
 next are drawn.
 """
 import base64
+import contextlib
 import functools
 import gc
 import io
 import json
 import multiprocessing
 import os
+import pickle
 import re
 import sys
 import urllib.parse
@@ -170,6 +172,7 @@ class Gallery:
         @param view what the page needs to show the same cloth in space, or None
         @param plotted whether the page draws its curves again as an interactive plot
         @return Picture
+        @throws what went wrong with this figure or an earlier one
         """
         name = self.own_name(name)
         self.tell(name)
@@ -182,6 +185,7 @@ class Gallery:
         """Has a figure saved, by a process of its own where another core could draw meanwhile.
 
         @param figure what save() takes
+        @throws what went wrong with this figure or an earlier one
         """
         if self.at_once == 1:
             picture.take(self.save(*figure))
@@ -189,19 +193,31 @@ class Gallery:
         self.wait(self.at_once - 1)
         theirs, mine = multiprocessing.Pipe(duplex=False)
         process = multiprocessing.get_context("fork").Process(
-            target=self.send_saved, args=(mine, figure), daemon=True
+            target=self.send_saved, args=(mine, [theirs, *self.saving], figure), daemon=True
         )
         process.start()
         mine.close()
         self.saving[theirs] = (process, picture)
 
-    def send_saved(self, to, figure):
-        """save(), in a process of its own: what it returns or raises goes to the one that asked."""
+    def send_saved(self, to, read_by_others, figure):
+        """save(), in a process of its own: what it returns or raises goes to the one that asked.
+
+        @param read_by_others ends of pipes that are not this process's: where nobody else has them
+            open any more, it ends, too
+        """
+        for end in read_by_others:
+            end.close()
         gc.disable()  # it ends before there is much to collect
         try:
-            to.send(self.save(*figure))
+            saved = self.save(*figure)
         except Exception as error:  # pylint: disable=broad-exception-caught
-            to.send(fault_of_system(error) or error)
+            saved = fault_of_system(error) or error
+        try:
+            pickle.loads(pickle.dumps(saved))
+        except Exception:  # pylint: disable=broad-exception-caught
+            saved = RuntimeError(f"saving the figure {figure[1]}: {saved!r}")
+        with contextlib.suppress(BrokenPipeError):
+            to.send(saved)
 
     def finish(self):
         """Waits until all figures are saved.
@@ -220,12 +236,20 @@ class Gallery:
                 process, picture = self.saving.pop(theirs)
                 try:
                     saved = theirs.recv()
-                except EOFError:
+                except (EOFError, OSError):
                     saved = RuntimeError(f"saving the figure {picture.name} ended without a word")
                 process.join()
                 if isinstance(saved, Exception):
+                    self.stop()
                     raise saved
                 picture.take(saved)
+
+    def stop(self):
+        """Ends the processes that still save figures: nobody wants these any more."""
+        for process, _ in self.saving.values():
+            process.terminate()
+            process.join()
+        self.saving.clear()
 
     def save(self, figure, name, as_image, table, plotted):
         """The files of a figure, and source, width, endings and plot of its Picture."""

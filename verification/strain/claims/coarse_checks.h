@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the coarse cloths of a strain study must do on any cell, asked of this one on small sheets.
+// What the coarse cloths and the cell of a strain study must do, asked of this cell on small
+// sheets.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
@@ -15,6 +16,8 @@ namespace homespun::verification
 ///   with the strain, of order 1; open where it finds no equilibrium, and where C^H is ten
 ///   thousand times stiffer in one direction than in another
 /// - six-node triangles of C^H have the energy of a quadratic displacement in closed form
+/// - chi with the constant that terms of edges want has the mean zero
+/// - those of second_order_checks()
 /// - those of layer_checks(), where edges are known, of cells of at most 8000 triangles; open where
 ///   a sheet finds no equilibrium
 std::vector<Verdict> coarse_checks(const homogenization::UnitCell &cell,

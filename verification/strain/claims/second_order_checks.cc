@@ -91,9 +91,10 @@ Verdict verdict_of_second_order(const homogenization::UnitCell &cell,
   double limit = std::numeric_limits<double>::infinity(),
          off   = std::numeric_limits<double>::quiet_NaN();
   // Smaller strains where the cell softens or stiffens sooner, until rounding is as large.
-  for (double s = 1e-3; limit > 0.1 * smallness && s > 1e-6; s *= 0.1)
+  for (int power = 3; limit > 0.1 * smallness && power <= 6; ++power)
     try
     {
+      const double s               = std::pow(10., -power);
       const QuadraticResponse near = of_solved_cells(nonlinear, sheet, e, s),
                               far  = of_solved_cells(nonlinear, sheet, e, 2. * s),
                               step = (far - near) * (1. / 3.); // from the limit to the nearer one
@@ -114,51 +115,66 @@ Verdict verdict_of_second_order(const homogenization::UnitCell &cell,
   return verdict;
 }
 
-/// Over the directions of a net and sizes about where the cubic energy is damped, the least
-/// eigenvalue of C + d²G/de² in the metric of C.
-double least_stiffness(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &C)
+/// Over the directions of a net, the least eigenvalue of C + d²G/de² in the metric of C.
+/// @param sizes of the strains, in parts of what the cubic energy reaches undamped
+double least_stiffness(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &C,
+                       const std::vector<double> &sizes)
 {
   constexpr int n_parts = 24; // of a half circle
   const Eigen::LLT<Eigen::Matrix3d> cholesky(C);
-  double least = 1.;
+  double lost = 0.;
   for (int i = 0; i <= n_parts; ++i)
     for (int j = 0; j < 2 * n_parts; ++j)
     {
       const double polar = i * M_PI / n_parts, azimuth = j * M_PI / n_parts;
       const Eigen::Vector3d unit = cholesky.matrixU().solve(Eigen::Vector3d(
         std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)));
-      for (const double size : {0.5, 1., 1.2, 1.4, 1.5, 5. / 3., 2., 4.})
+      for (const double size : sizes)
       {
         const Eigen::Matrix3d hessian = cubic.hessian(size * cubic.reach() * unit);
         const Eigen::Matrix3d scaled =
           cholesky.matrixL().solve(cholesky.matrixL().solve(hessian).transpose());
-        least = std::min(least, 1. + Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                       0.5 * (scaled + scaled.transpose()), Eigen::EigenvaluesOnly)
-                                       .eigenvalues()(0));
+        lost = larger(lost, -Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+                               0.5 * (scaled + scaled.transpose()), Eigen::EigenvaluesOnly)
+                               .eigenvalues()(0));
       }
     }
-  return least;
+  return 1. - lost;
 }
 
 Verdict verdict_of_guard(const homogenization::UnitCell &cell,
                          const meshes::HomogenizedCell &homogenized, const std::string &law)
 {
-  const shell::GuardedCubic cubic(homogenized.second_order.at(law).energy, homogenized.stiffness);
-  const double least =
-    std::isfinite(cubic.reach()) ? least_stiffness(cubic, homogenized.stiffness) : 1.;
+  const meshes::CubicForm &energy = homogenized.second_order.at(law).energy;
+  const shell::GuardedCubic cubic(energy, homogenized.stiffness);
+  const bool has_any = std::isfinite(cubic.reach());
+  const auto least   = [&](const std::vector<double> &sizes)
+  { return has_any ? least_stiffness(cubic, homogenized.stiffness, sizes) : 1.; };
+  const double within = least({0.5, 1.}), beyond = least({1.2, 1.4, 1.5, 5. / 3., 2., 4.});
+  const bool holds = energy.derivatives.allFinite() && within >= 2. / 3. && beyond >= 0.1;
   return judged("cubic-guard", {{"cell", cell.name}, {"reference", law}},
-                least >= 0.1 * (1. - 1e-9) ? Outcome::pass : Outcome::fail, least);
+                holds ? Outcome::pass : Outcome::fail, within);
 }
 } // namespace
 
 std::vector<Verdict> second_order_checks(const homogenization::UnitCell &cell,
                                          const meshes::HomogenizedCell &homogenized)
 {
+  constexpr int most_triangles = 20000; // ten seconds
   std::vector<Verdict> checks;
   for (const auto &[law, of_law] : homogenized.second_order)
   {
     checks.push_back(verdict_of_guard(cell, homogenized, law));
-    checks.push_back(verdict_of_second_order(cell, homogenized, law_of(law)));
+    if (cell.mesh.n_triangles() <= most_triangles && of_law.energy.derivatives.allFinite() &&
+        of_law.chi.allFinite())
+    {
+      checks.push_back(verdict_of_second_order(cell, homogenized, law_of(law)));
+      continue;
+    }
+    const bool is_known = cell.mesh.n_triangles() <= most_triangles; // and is no number
+    checks.push_back(at_most("second-order", {{"cell", cell.name}, {"reference", law}},
+                             std::numeric_limits<double>::quiet_NaN(), 1.));
+    checks.back().outcome = is_known ? Outcome::fail : Outcome::inconclusive;
   }
   return checks;
 }
