@@ -195,7 +195,7 @@ class Homogenize(InFolder):
                                                      r"which is about \S+ s and \S+ GB:")
         # The finer solve is the bar of a cell without a bracket.
         self.assertIsNotNone(found["C_uncertainty"])
-        self.assertEqual(len(found["checks"]), 5)
+        self.assertEqual(len(found["checks"]), 6)
         for check in found["checks"]:
             self.assertEqual(sorted(check), ["derivation", "id", "kind", "limit", "name", "value",
                                              "verdict"])
