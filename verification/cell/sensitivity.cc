@@ -2,6 +2,7 @@
 #include "verification/cell/sensitivity.h"
 
 #include "homogenization/cell/parameter_text.h"
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/claim.h"
 
@@ -165,7 +166,8 @@ double room_of(const Phase &phase)
 
 /// How far derivatives of a phase's stiffness are from differences, over the stiffness and the size
 /// of the constant.
-double misfit_of_derivatives(const Phase &phase)
+/// @param part of what a constant may change by, the smaller step
+double misfit_of_derivatives(const Phase &phase, const double part)
 {
   const double room = room_of(phase);
   double worst      = 0.;
@@ -183,7 +185,7 @@ double misfit_of_derivatives(const Phase &phase)
                 stiffness(homogenization::changed(phase, constant, value - step))) /
                (2. * step);
       };
-      const double step             = 1e-4 * room * unit;
+      const double step             = part * room * unit;
       const Eigen::Matrix3d at_zero = (4. * slope(step) - slope(2. * step)) / 3.;
       return (derivative(phase, constant) - at_zero).norm() * room * unit / stiffness(phase).norm();
     };
@@ -198,14 +200,14 @@ double misfit_of_derivatives(const Phase &phase)
 
 Verdict constants_check(const UnitCell &cell)
 {
-  constexpr double of_steps = 1e-8, rounding = 4e-12; // of a difference over 1e-4
+  constexpr double part = 1e-4;
   double worst = 0., room = 1.;
   for (const Phase &phase : cell.phases)
   {
-    worst = larger(worst, misfit_of_derivatives(phase));
+    worst = larger(worst, misfit_of_derivatives(phase, part));
     room  = std::min(room, room_of(phase));
   }
-  return at_most("constants", {}, worst, of_steps + rounding / room);
+  return at_most("constants", {}, worst, 10. * meshes::epsilon / (part * room));
 }
 
 std::vector<Verdict> scaling_checks(const UnitCell &cell, const AssessedCell &assessed)

@@ -43,7 +43,7 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
   if (quiet)
     arguments.push_back("--quiet");
   else
-    std::fprintf(stderr, "Making the page %s/report.html: drawing takes a minute or more\n",
+    std::fprintf(stderr, "Making the page %s/report.html: drawing takes 15 s or more\n",
                  output.c_str());
   if (run_report_script("report.py", arguments) != 0)
   {

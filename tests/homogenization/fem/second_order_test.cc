@@ -18,6 +18,7 @@ Homogenization with_second_order(const UnitCell &cell, const unsigned int order 
   HomogenizationOptions options;
   options.order        = order;
   options.tolerance    = 1e-13;
+  options.solver       = order == 1 ? CellSolver::multigrid : CellSolver::direct;
   options.second_order = laws;
   return homogenize(cell, options, MPI_COMM_SELF);
 }

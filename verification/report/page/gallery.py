@@ -109,6 +109,15 @@ def fault_of_system(error):
     return error
 
 
+def as_sent(error, name):
+    """An exception that another process can take: itself, or what it says where it cannot."""
+    try:
+        pickle.loads(pickle.dumps(error))
+        return error
+    except Exception:  # pylint: disable=broad-exception-caught
+        return RuntimeError(f"saving the figure {name}: {error!r}")
+
+
 def in_page(value):
     """JSON that may stand in a script element; empty for None."""
     if value is None:
@@ -211,11 +220,7 @@ class Gallery:
         try:
             saved = self.save(*figure)
         except Exception as error:  # pylint: disable=broad-exception-caught
-            saved = fault_of_system(error) or error
-        try:
-            pickle.loads(pickle.dumps(saved))
-        except Exception:  # pylint: disable=broad-exception-caught
-            saved = RuntimeError(f"saving the figure {figure[1]}: {saved!r}")
+            saved = as_sent(fault_of_system(error) or error, figure[1])
         with contextlib.suppress(BrokenPipeError):
             to.send(saved)
 
