@@ -18,31 +18,39 @@ class House(unittest.TestCase):
 class Planted(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.others = walls.House(ROOT).others
-
-    def setUp(self):
-        self.root = pathlib.Path(tempfile.mkdtemp(prefix="homespun-walls-"))
-        self.addCleanup(shutil.rmtree, self.root)
+        cls.root = pathlib.Path(tempfile.mkdtemp(prefix="homespun-walls-"))
+        cls.addClassCleanup(shutil.rmtree, cls.root)
         for folder in walls.FOLDERS:
-            shutil.copytree(ROOT / folder, self.root / folder,
+            shutil.copytree(ROOT / folder, cls.root / folder,
                             ignore=lambda folder, names: [
                                 name for name in names if "." in name and
                                 not name.endswith((".h", ".cc", "README.md"))])
-        for path, text in self.others.items():
-            (self.root / path).parent.mkdir(parents=True, exist_ok=True)
-            (self.root / path).write_text(text, encoding="utf-8")
+        for path, text in walls.House(ROOT).others.items():
+            (cls.root / path).parent.mkdir(parents=True, exist_ok=True)
+            (cls.root / path).write_text(text, encoding="utf-8")
 
-    def expect(self, rule, says):
+    def write(self, path, text):
+        """Into the copy that all tests share, for the length of this one."""
+        whole = self.root / path
+        if whole.exists():
+            self.addCleanup(whole.write_text, whole.read_text(encoding="utf-8"), encoding="utf-8")
+        else:
+            self.addCleanup(whole.unlink)
+        whole.write_text(text, encoding="utf-8")
+
+    def read(self, path):
+        return (self.root / path).read_text(encoding="utf-8")
+
+    def expect(self, rule, *says):
         found = walls.violations(self.root, [rule])
-        self.assertTrue(any(says in text for text in found), f"{says!r} is not among {found}")
+        for words in says:
+            self.assertTrue(any(words in text for text in found), f"{words!r} is not among {found}")
 
     def append(self, path, text):
-        with open(self.root / path, "a", encoding="utf-8") as file:
-            file.write(text)
+        self.write(path, self.read(path) + text)
 
     def include(self, path, name):
-        whole = self.root / path
-        whole.write_text(f"#include {name}\n" + whole.read_text(encoding="utf-8"), encoding="utf-8")
+        self.write(path, f"#include {name}\n" + self.read(path))
 
     def test_the_copy_is_sound(self):
         self.assertEqual(walls.violations(self.root), [])
@@ -72,22 +80,21 @@ class Planted(unittest.TestCase):
     def test_functions(self):
         long_one = "int long_one(int n)\n{\n" + 79 * "++n;\n" + "}\n"
         self.append("meshes/plain/sheet.cc", "namespace homespun\n{\n" + long_one + "}\n")
-        self.expect(walls.signatures, "long_one: 81 lines; at most 80")
         many = "void many(int a, double b, std::map<int, int> c, int d, int e, int f, int g);\n"
         unclear = "void unclear(int n, bool is_fast);\n"
         self.append("shell/solver/cloth.h", f"namespace homespun\n{{\n{many}{unclear}}}\n")
-        self.expect(walls.signatures, "many: 7 parameters; at most 6")
-        self.expect(walls.signatures, "unclear: a boolean parameter")
+        self.expect(walls.signatures, "long_one: 81 lines; at most 80",
+                    "many: 7 parameters; at most 6", "unclear: a boolean parameter")
 
     def test_file_in_no_wing(self):
-        (self.root / "shell" / "loose.cc").write_text("", encoding="utf-8")
+        self.write("shell/loose.cc", "")
         self.expect(walls.arrows, "shell/loose.cc: stands in no wing")
 
     def test_door_that_nobody_uses(self):
         for path in (self.root / "verification" / "drape").rglob("*.*"):
             text = path.read_text(encoding="utf-8")
-            text = text.replace('"verification/method/', '"meshes/plain/')
-            path.write_text(text, encoding="utf-8")
+            if '"verification/method/' in text:
+                self.write(path, text.replace('"verification/method/', '"meshes/plain/'))
         self.expect(walls.unused_arrows, "verification/drape may include verification/method")
 
     def test_circle(self):
@@ -108,39 +115,33 @@ class Planted(unittest.TestCase):
     def test_ground_that_has_worn_away(self):
         for wing, names in walls.GROUND.items():
             for name in names:
-                kept = {}
-                for path in (self.root / wing).iterdir():
-                    text = path.read_text(encoding="utf-8")
-                    if name in text:
-                        kept[path] = text
-                        path.write_text(text.replace(name, "Own") + f"// {name}\n",
-                                        encoding="utf-8")
-                self.expect(walls.ground, f"{wing}: uses no {name}")
-                for path, text in kept.items():
-                    path.write_text(text, encoding="utf-8")
+                with self.subTest(name):
+                    for path in (self.root / wing).iterdir():
+                        if name in (text := path.read_text(encoding="utf-8")):
+                            self.write(path, text.replace(name, "Own") + f"// {name}\n")
+                    self.expect(walls.ground, f"{wing}: uses no {name}")
+                self.doCleanups()
 
     def test_column_by_number(self):
         self.append("verification/strain/validity.cc", "double x = row[3];\n")
         self.expect(walls.rows, "row[3]; columns have names")
 
     def test_header_that_only_tests_include(self):
-        (self.root / "shell" / "terms" / "unused.h").write_text("", encoding="utf-8")
+        self.write("shell/terms/unused.h", "")
         self.expect(walls.test_headers, "shell/terms/unused.h: no product file includes it")
 
     def test_folder_of_too_many_files(self):
         for k in range(walls.MOST_FILES):
-            name = f"more{k}" + walls.SOURCES[k % len(walls.SOURCES)]
-            (self.root / "meshes" / "cloth" / name).write_text("", encoding="utf-8")
+            self.write(f"meshes/cloth/more{k}{walls.SOURCES[k % len(walls.SOURCES)]}", "")
         self.expect(walls.sizes, "meshes/cloth: ")
 
     def test_test_that_nothing_runs(self):
-        path = self.root / "tests" / "verification" / "CMakeLists.txt"
-        text = path.read_text(encoding="utf-8")
-        path.write_text(text.replace("forces gains edges", "forces edges"), encoding="utf-8")
+        path = "tests/verification/CMakeLists.txt"
+        self.write(path, self.read(path).replace("forces gains edges", "forces edges"))
         self.expect(walls.unlisted_tests, "program/gains_test.py: no CMakeLists.txt above it")
 
     def test_file_at_the_top(self):
-        (self.root / "setup.cfg").write_text("", encoding="utf-8")
+        self.write("setup.cfg", "")
         self.expect(walls.top_level, "setup.cfg: stands at the top")
 
     def test_file_of_too_many_lines(self):
