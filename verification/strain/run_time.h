@@ -47,7 +47,7 @@ struct RunTimeOptions
 {
   double strain                     = 0.1;
   int n_runs                        = 5;         ///< per way, of which the median is taken
-  double seconds_of_a_way           = 30.;       ///< no further run of a way begins after this long
+  double seconds_of_a_way           = 15.;       ///< no further run of a way begins after this long
   std::vector<std::string> methods  = {};        ///< of which those with own cloths have rows
   Law law                           = Law::biot; ///< of the reference, which coarse cloths follow
   const meshes::CellEdges *edges    = nullptr; ///< of the cell; null: methods that ask have no rows
