@@ -10,7 +10,7 @@ import h5py
 import numpy
 
 import homespun
-from with_cell import BUILD, CELLS, SOURCE, WithFolder, write_obj
+from with_cell import BUILD, CELLS, COARSE, SOURCE, WithFolder, write_obj
 
 sys.path.append(str(SOURCE / "verification/report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -25,9 +25,9 @@ def run(*arguments, status=(0,)):
 
 class Methods(WithFolder):
     def kept(self, name, law, method):
-        """Cell, coarse positions and what the study makes of them: strip-1 at 1 %, 4 x 4 cells."""
+        """Cell, coarse positions and what the study makes of them: strip-1 at 1 %, 3 x 3 cells."""
         output = self.folder / f"{name}-{law}"
-        run("strain", CELLS / f"{name}.prm", "--cells", 4, "--loads", "strip-1", "--strains", 0.01,
+        run("strain", COARSE / f"{name}.prm", "--cells", 3, "--loads", "strip-1", "--strains", 0.01,
             "--references", law, "--methods", f"affine,{method}", "--no-budget",
             "--no-runtime", "--no-report", "--keep", "--quiet", "--output", output, status=(0, 1, 4))
         with h5py.File(output / name / "fields-strip-1.h5") as file:
@@ -42,7 +42,7 @@ class Methods(WithFolder):
                                   ("layered", "green", "localized"),
                                   ("plain-weave-straight", "yarn", "localized+modes")):
             cell, coarse, expected = self.kept(name, law, method)
-            upsampler = homespun.Upsampler(cell, homespun.Sheet(cell, 4, 4), method=method)
+            upsampler = homespun.Upsampler(cell, homespun.Sheet(cell, 3, 3), method=method)
             fine = upsampler.upsample(coarse)
             self.assertEqual((fine.dtype, fine.shape), (numpy.float64, expected.shape))
             numpy.testing.assert_array_equal(fine, expected)
@@ -53,7 +53,7 @@ class Methods(WithFolder):
 
     def test_under_the_linear_law_a_study_does_not_turn_cells_and_python_does(self):
         cell, coarse, expected = self.kept("layered", "linear", "localized")
-        sheet = homespun.Sheet(cell, 4, 4)
+        sheet = homespun.Sheet(cell, 3, 3)
         fine = homespun.Upsampler(cell, sheet, method="localized").upsample(coarse)
         distance = numpy.abs(fine - expected).max()
         # Second order in strain of what first order adds to the coarse motion.

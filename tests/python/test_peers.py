@@ -10,9 +10,9 @@ from unittest import mock
 import numpy
 
 import homespun
-from with_cell import CELLS, SOURCE, WithFolder
+from with_cell import COARSE, SOURCE, WithFolder
 
-CELL = CELLS / "layered.prm"
+CELL = COARSE / "layered.prm"
 sys.path.insert(0, str(SOURCE / "python" / "peers"))
 
 # pylint: disable=wrong-import-position

@@ -16,6 +16,7 @@ import homespun
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
 CELLS = SOURCE / "meshes" / "cells"
+COARSE = SOURCE / "tests" / "cells"  # some of them on coarse meshes
 SIDE = 0.01  # of the cell [m]
 
 
