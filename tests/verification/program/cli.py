@@ -13,6 +13,7 @@ import unittest.util
 unittest.util._MAX_LENGTH = 4000  # of what an assertion shows: Status is longer than 80 letters
 PROGRAM = os.environ["HOMESPUN"]
 PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
+LONG = "LONG" in os.environ  # the configuration of that name
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
 CELLS = pathlib.Path(__file__).resolve().parents[3] / "meshes" / "cells"
 # Shipped cells on coarse meshes, where the statement does not depend on the mesh.
