@@ -14,21 +14,21 @@ KEYS = {"Mesh": "cell.msh", "Length unit": "0.01", "Young's modulus": "soft: 1e6
 
 
 class Cell:
-    """A unit square of N x N x 2 triangles, the upper half hard, to be broken; its ten lines."""
+    """A unit square of n x n x 2 triangles, the upper half hard, to be broken; its ten lines."""
 
-    def __init__(self):
-        self.keys = dict(KEYS)
-        self.points = [[i / N, j / N, 0.] for j in range(N + 1) for i in range(N + 1)]
+    def __init__(self, n=N):
+        self.keys, self.n = dict(KEYS), n
+        self.points = [[i / n, j / n, 0.] for j in range(n + 1) for i in range(n + 1)]
         self.triangles, self.groups = [], []
-        for j in range(N):
-            for i in range(N):
-                a = j * (N + 1) + i
-                self.triangles += [[a, a + 1, a + N + 2], [a, a + N + 2, a + N + 1]]
-                self.groups += [1 if j < N // 2 else 2] * 2
+        for j in range(n):
+            for i in range(n):
+                a = j * (n + 1) + i
+                self.triangles += [[a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1]]
+                self.groups += [1 if j < n // 2 else 2] * 2
 
     def square_of(self, triangle):
         """(i, j) of the square that a triangle is half of."""
-        return (triangle // 2) % N, (triangle // 2) // N
+        return (triangle // 2) % self.n, (triangle // 2) // self.n
 
     def keep(self, stays):
         """Leaves out the squares (i, j) that do not stay."""

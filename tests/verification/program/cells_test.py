@@ -9,7 +9,7 @@ import shutil
 import sys
 import unittest
 
-from cli import CELLS, InFolder, run
+from cli import CELLS, LONG, InFolder, run
 
 sys.path.insert(0, str(CELLS))
 import weave  # noqa: E402  pylint: disable=wrong-import-position
@@ -173,7 +173,7 @@ class Making(InFolder):
                       (self.folder / "open.prm").read_text(encoding="utf-8"))
 
     def test_every_shipped_mesh_is_what_its_source_makes(self):
-        for name in NAMES:
+        for name in NAMES if LONG else ("checkerboard", "twill"):
             result = run("cells", "make", name, "--output", self.folder)
             self.assertEqual(result.returncode, 0, result.stderr)
             made, shipped = self.folder / f"{name}.prm", CELLS / f"{name}.prm"

@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import unittest.util
@@ -13,6 +14,7 @@ import unittest.util
 unittest.util._MAX_LENGTH = 4000  # of what an assertion shows: Status is longer than 80 letters
 PROGRAM = os.environ["HOMESPUN"]
 PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
+LONG = "LONG" in os.environ  # the configuration of that name
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
 CELLS = pathlib.Path(__file__).resolve().parents[3] / "meshes" / "cells"
 # Shipped cells on coarse meshes, where the statement does not depend on the mesh.
@@ -48,6 +50,16 @@ def rows_of(path):
     """The rows of a table."""
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def page_of(folder):
+    """The page of a run, made by this process without the pictures, which take most of the time."""
+    sys.path.append(str(CELLS.parents[1] / "tests" / "verification" / "report"))
+    import page_case  # pylint: disable=import-outside-toplevel,import-error
+    with page_case.drawn_alone(()):
+        status = page_case.report.main([str(folder), "--output", str(folder), "--quiet"])
+    assert status in (None, 0), status
+    return (folder / "report.html").read_text(encoding="utf-8")
 
 
 def cut(folder):

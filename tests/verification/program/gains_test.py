@@ -8,7 +8,7 @@ import shutil
 import unittest
 
 from broken_cells_test import Cell
-from cli import COARSE, LAYERED, InFolder, rows_of, run
+from cli import COARSE, LAYERED, InFolder, page_of, rows_of, run
 
 SMALL = ["--cells", "4", "--no-budget", "--no-runtime"]
 
@@ -17,14 +17,15 @@ class Gains(InFolder):
     def study(self, cell, *options, load="strip-1"):
         """(exit status, {claim of kind method, and of levels: its verdict})"""
         output = self.folder / "run"
-        result = run("strain", cell, *SMALL, "--loads", load, *options, "--output", output)
+        result = run("strain", cell, *SMALL, "--loads", load, *options, "--no-report", "--output",
+                     output)
         verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
         return result.returncode, {
             verdict["claim"].split(": ", 1)[1]: verdict for verdict in verdicts
             if verdict["kind"] == "method" or "levels without" in verdict["claim"]}
 
     def page(self):
-        text = (self.folder / "run" / "report.html").read_text(encoding="utf-8")
+        text = page_of(self.folder / "run")
         return re.sub("<[^>]*>", " ", text[text.index("<h1>"):text.index("<nav")])
 
     def test_no_bar_is_known_where_the_reference_left_the_state_that_bars_are_of(self):
@@ -89,8 +90,7 @@ class Gains(InFolder):
         self.assertIn("strip-1   ≈ 0", re.sub(" +", lambda gap: " " * min(3, len(gap[0])), page))
 
     def test_a_run_at_ten_per_cent_alone_has_method_claims(self):
-        _, claims = self.study(LAYERED, "--references", "biot", "--strains", "0.1",
-                               "--no-report")
+        _, claims = self.study(LAYERED, "--references", "biot", "--strains", "0.1")
         for pair in ("full is closer to biot than its base",
                      "full is closer to biot than localized",
                      "localized is closer to biot than affine"):

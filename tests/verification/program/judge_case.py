@@ -7,6 +7,7 @@ import tempfile
 import h5py
 import numpy
 
+from broken_cells_test import Cell
 from cli import CELLS, LAYERED, InFolder, rows_of, run
 
 
@@ -44,14 +45,13 @@ class Judging(InFolder):
             del description["files"][key]
         (study / "run.json").write_text(json.dumps(description))
 
-    def judge(self, *files, name="mine", study=None, report=False):
+    def judge(self, *files, name="mine", study=None):
         return run("judge", study or self.study, *files, "--name", name, "--output",
-                   self.folder / f"judged-{name}", "--overwrite",
-                   *([] if report else ["--no-report"]))
+                   self.folder / f"judged-{name}", "--overwrite", "--no-report")
 
-    def judged(self, *files, name="mine", report=False):
+    def judged(self, *files, name="mine"):
         """The rows of a method, by level, and what was said."""
-        result = self.judge(*files, name=name, report=report)
+        result = self.judge(*files, name=name)
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         rows = [row for row in rows_of(self.folder / f"judged-{name}" / self.table)
                 if row["method"] == name]
@@ -73,9 +73,11 @@ class JudgingLevels(Judging):
 
     @classmethod
     def setUpClass(cls):
-        cls.make("strain", CELLS / "layered.prm", "--cells", "4", "--loads", "strip-1,periodic-11",
-                 "--references", "linear,biot", "--strains", "0.01,0.1", "--no-budget",
-                 "--no-runtime")
+        folder = tempfile.TemporaryDirectory(prefix="homespun-")
+        cls.addClassCleanup(folder.cleanup)
+        cell = Cell().write(pathlib.Path(folder.name), "layered")
+        cls.make("strain", cell, "--cells", "4", "--loads", "strip-1,periodic-11", "--references",
+                 "linear,biot", "--strains", "0.01,0.1", "--no-budget", "--no-runtime")
         with h5py.File(cls.kept / "sheet.h5") as file:
             cls.triangles, cls.rest = file["triangles"][...], file["rest"][...]
 

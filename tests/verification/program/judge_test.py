@@ -16,7 +16,7 @@ import h5py
 import numpy
 
 import broken_cells_test
-from cli import CELLS, LAYERED, rows_of, run
+from cli import CELLS, LAYERED, page_of, rows_of, run
 from judge_case import JudgingFrames, JudgingLevels
 
 PEERS = CELLS.parents[1] / "python" / "peers"
@@ -79,14 +79,13 @@ class Judge(JudgingLevels):
     def test_a_method_from_outside_is_judged_on_every_level(self):
         subprocess.run([sys.executable, "-B", PEERS / "flat.py", self.kept, self.folder / "flat"],
                        check=True)
-        rows, _ = self.judged(self.folder / "flat", name="flat", report=True)
+        rows, _ = self.judged(self.folder / "flat", name="flat")
         self.assertEqual(len(rows), 8)
         for row in rows.values():  # what `affine` does, written again in numpy
             affine = self.row("affine", row["load"], row["reference"], row["strain"])
             self.assertAlmostEqual(float(row["error_mean_m"]) / float(affine["error_mean_m"]), 1.,
                                    delta=1e-9)
-        page = (self.folder / "judged-flat" / "report.html").read_text(encoding="utf-8")
-        text = re.sub("<[^>]*>", " ", page)
+        text = re.sub("<[^>]*>", " ", page_of(self.folder / "judged-flat"))
         self.assertRegex(text, r"\d of \d \(strip-1\) methods of homespun are closer than flat, "
                                r"whose error is [\d.]+ \(strip-1\) times that of full")
 
