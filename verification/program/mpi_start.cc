@@ -129,6 +129,8 @@ void Mpi::start(char *const name)
   // A process by itself needs no daemon of Open MPI, whose start takes longer than all else in
   // MPI_Init; only processes that start others by MPI do.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Nor a network: looking for those of clusters takes as long as all that is left.
+  setenv("OMPI_MCA_pml", "ob1", 0);
   // Without the daemon, who numbers the jobs, each process is job 0 and makes and removes the same
   // folder of a session as all others. With a folder of its own it is in nobody's way; once it runs
   // it needs none, for it has no other rank to share memory with, so that the folder goes at once

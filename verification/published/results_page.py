@@ -217,6 +217,15 @@ def losses(rows, method, other):
     return [row for row in known(rows, method, other) if float(row[method]) > float(row[other])]
 
 
+def is_decided(row, method, other, claim):
+    """Whether a loss is, by its claim or where there is none by the rules of claims."""
+    if claim:
+        return row[claim] == "FAIL"
+    bars = [float(row[f"{name}_bar"] or "nan") for name in (method, other)]
+    return (float(row[method]) - float(row[other]) > sum(bars) and not is_lost(row)
+            and float(row["bar_safety"] or UNCONFIRMED) < UNCONFIRMED)
+
+
 def lost(rows):
     """Each row in which a method has the larger error than another, as lists."""
     out = []
@@ -228,7 +237,8 @@ def lost(rows):
         for strain, some in levels(without_twins(rows)).items():
             cases = [
                 f"`{row['cell']}` {row['load']} ({with_bar(row, method)} against"
-                f" {with_bar(row, other)}{', decided' if claim and row[claim] == 'FAIL' else ''}"
+                f" {with_bar(row, other)}"
+                f"{', decided' if is_decided(row, method, other, claim) else ''}"
                 f"{', law' if is_lost(row) else ''})"
                 for row in losses(some, method, other)
             ]

@@ -88,9 +88,19 @@ class ResultsPageTest(unittest.TestCase):
                      "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 2.50 ± 0.10,"
                      " decided).",
                      "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 4.00 ± 0.10).",
-                     "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 3.00 ± 0.10)."):
+                     "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 3.00 ± 0.10,"
+                     " decided)."):  # by its bars: no claim compares these two
             self.assertIn(line, page)
         self.assertNotIn("`good` strip-1 (", page)
+
+    def test_a_loss_that_no_claim_is_on_is_decided_by_the_rules_of_claims(self):
+        for columns, outcome in (({"full": "9"}, True), ({"full": "3.1"}, False),
+                                 ({"full": "9", "full_bar": "6"}, False),
+                                 ({"full": "9", "affine_bar": ""}, False),
+                                 ({"full": "9", "bar_safety": "3"}, False),
+                                 ({"full": "9", "law_lost_at": "0.005"}, False)):
+            row = published_row("bad", "0.01", **{"affine": "3", **columns})
+            self.assertEqual(results_page.is_decided(row, "full", "affine", None), outcome, columns)
 
     def test_losses_are_of_rows_with_both_errors_and_say_where_the_law_is_lost(self):
         page = self.page(published_row("bad", "0.1", affine="3", law_lost_at="0.02"),

@@ -26,6 +26,14 @@ bool has(const std::vector<std::string> &names, const std::string &name)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Whether there are bars of errors whose coarse motion is prescribed.
+bool has_prescribed_motion(const StrainStudyOptions &options)
+{
+  return options.n_cells_of_error_bar > 0 && has(options.methods, "affine") &&
+         std::any_of(options.loads.begin(), options.loads.end(),
+                     [](const std::string &load) { return prescribes_motion(Load(load)); });
+}
+
 /// What is owed of a load against one reference.
 void add_case(const StrainStudyOptions &options, const Words &load, const std::string &reference,
               std::vector<OwedClaim> &owed)
@@ -105,6 +113,8 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
         std::any_of(options.loads.begin(), options.loads.end(),
                     [](const std::string &load) { return !Load(load).is_periodic(); }))
       owed.push_back({"parts-of-mean", of_cell, {"equilibria"}});
+    if (has_prescribed_motion(options))
+      owed.push_back({"bars-of-prescribed-motion", of_cell, {"equilibria"}});
     const std::string main = main_reference(options.references);
     for (const std::string &load : options.loads)
     {
@@ -113,7 +123,7 @@ std::vector<OwedClaim> owed_of_strain(const StrainStudyOptions &asked,
         add_case(options, words, reference, owed);
       if (!Load(load).is_periodic())
         owed.push_back({"clamp-travel", words});
-      else if (!Load(load).has_free_sides())
+      else if (prescribes_motion(Load(load)))
         owed.push_back({"no-moment", words});
       if (has_budget(options, Load(load)))
         add_budget(options, words, owed);
@@ -142,6 +152,8 @@ std::vector<Verdict> cell_verdicts(const StrainOutput &output, const StrainStudy
         verdicts_of_parts(output.strain.rows(), cell),
         verdicts_of_proportions(output.strain.rows(), forces, cell, left_in_stress(cell))})
     verdicts.insert(verdicts.end(), some.begin(), some.end());
+  if (has_prescribed_motion(options))
+    verdicts.push_back(verdict_of_prescribed_motion(output.uncertainty.rows(), cell));
   return verdicts;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/table_verdicts.h"
 
+#include "meshes/plain/epsilon.h"
 #include "verification/law/laws.h"
 #include "verification/method/method.h"
 #include "verification/record/claim.h"
-#include "verification/reference/loads.h"
 #include "verification/strain/claims/strain_verdicts.h"
 #include "verification/strain/strain_cases.h"
 
@@ -106,6 +106,11 @@ std::vector<Verdict> verdicts_of_proportions(const std::vector<StrainRow> &rows,
   return {at_most("proportional", {{"cell", cell.name}}, worst, left)};
 }
 
+bool prescribes_motion(const Load &load)
+{
+  return load.is_periodic() && !load.has_free_sides();
+}
+
 Verdict verdict_of_triangles(const std::vector<UncertaintyRow> &rows)
 {
   int n_wrong = 0, n_rows = 0;
@@ -124,6 +129,33 @@ Verdict verdict_of_triangles(const std::vector<UncertaintyRow> &rows)
                 !is_triangle(row.p1_to_p2_max, row.p1_to_refined_max, row.p2_to_refined_max));
   }
   return open_without(n_rows, at_most("triangles", {{"rows", n_rows}}, n_wrong, 0.));
+}
+
+Verdict verdict_of_prescribed_motion(const std::vector<UncertaintyRow> &rows,
+                                     const homogenization::UnitCell &cell)
+{
+  int n_rows    = 0;
+  double worst  = 0.;
+  const auto is = [&](const UncertaintyRow &row, const char *method)
+  { return row.cell == cell.name && row.method == method && std::isfinite(row.p1_to_p2); };
+  for (const UncertaintyRow &row : rows)
+    for (const UncertaintyRow &other : rows)
+    {
+      if (!is(row, "affine") || !is(other, UncertaintyRow::of_reference) ||
+          !prescribes_motion(Load(row.load)) || row.load != other.load ||
+          row.reference != other.reference || row.strain != other.strain)
+        continue;
+      ++n_rows;
+      for (const auto distance : {&UncertaintyRow::p1_to_p2, &UncertaintyRow::p1_to_refined,
+                                  &UncertaintyRow::p2_to_refined})
+        worst = larger(worst, std::abs(row.*distance - other.*distance));
+    }
+  const double side = std::sqrt(cell.lattice.area()),
+               // Positions are differences of coordinates, which may lie far from the origin.
+    limit = 16. * meshes::epsilon * (1. + cell.mesh.vertices.cwiseAbs().maxCoeff() / side);
+  return open_without(n_rows,
+                      at_most("bars-of-prescribed-motion", {{"cell", cell.name}, {"rows", n_rows}},
+                              worst / side, limit));
 }
 
 Verdict verdict_of_bases(const std::vector<GainRow> &gains, const std::vector<StrainRow> &rows)

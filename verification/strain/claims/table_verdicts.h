@@ -6,6 +6,7 @@
 #include "homogenization/cell/unit_cell.h"
 #include "verification/record/table.h"
 #include "verification/record/verdict.h"
+#include "verification/reference/loads.h"
 #include "verification/strain/strain_tables.h"
 
 #include <string>
@@ -33,6 +34,14 @@ std::vector<Verdict> verdicts_of_proportions(const std::vector<StrainRow> &rows,
 /// uncertainty.csv: of three discretizations none lies farther from another than the way through
 /// the third one, in the mean and at the worst vertex.
 Verdict verdict_of_triangles(const std::vector<UncertaintyRow> &rows);
+
+/// Whether all strains of an infinite cloth are given: its coarse motion is known beforehand.
+bool prescribes_motion(const Load &load);
+
+/// uncertainty.csv: where the coarse motion is prescribed, what moves the error of the coarse mesh
+/// alone is the reference: its distances are the reference's, over the side of the cell.
+Verdict verdict_of_prescribed_motion(const std::vector<UncertaintyRow> &rows,
+                                     const homogenization::UnitCell &cell);
 
 /// gains.csv: the error of a row's base is not larger than that of its method without microscopic
 /// displacement or, where it has six-node coarse triangles, of `affine+p2`.

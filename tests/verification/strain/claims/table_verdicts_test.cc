@@ -169,6 +169,29 @@ TEST(bound_table_verdicts, the_third_discretization_is_no_short_cut)
   EXPECT_EQ(verdict_of_triangles({}).outcome, Outcome::inconclusive);
 }
 
+TEST(exact_table_verdicts,
+     where_the_motion_is_prescribed_the_coarse_mesh_has_the_bars_of_its_reference)
+{
+  const homogenization::UnitCell cell = homogenization::read_unit_cell(CELLS "layered.prm");
+  const auto outcome =
+    [&](const std::string &load, const double of_affine, const double of_reference)
+  {
+    std::vector<UncertaintyRow> rows;
+    for (const auto &[method, distance] :
+         {std::pair("affine", of_affine), {UncertaintyRow::of_reference, of_reference}})
+    {
+      rows.push_back({cell.name, load, "biot", 0.05, 1, method});
+      rows.back().p1_to_p2 = rows.back().p1_to_refined = rows.back().p2_to_refined = distance;
+    }
+    return verdict_of_prescribed_motion(rows, cell).outcome;
+  };
+  EXPECT_EQ(outcome("periodic-12", 1e-6, 1e-6), Outcome::pass);
+  EXPECT_EQ(outcome("periodic-12", 0., 1e-6), Outcome::fail) << "of a reference that stays";
+  EXPECT_EQ(outcome("periodic-12", 1e-6, 1.000001e-6), Outcome::fail);
+  EXPECT_EQ(outcome("uniaxial-1", 0., 1e-6), Outcome::inconclusive);
+  EXPECT_EQ(outcome("strip-1", 0., 1e-6), Outcome::inconclusive);
+}
+
 TEST(exact_table_verdicts, a_file_gives_back_its_numbers_and_a_changed_digit_is_noticed)
 {
   const Folder folder;
