@@ -133,7 +133,7 @@ class Supercell(InFolder):
 
 class Stop(InFolder):
     def test_a_path_that_the_law_ends_names_the_triangle(self):
-        result = run("strain", CELLS / "layered.prm", "--quick", "--loads", "shear-frame",
+        result = run("strain", LAYERED, "--quick", "--loads", "shear-frame",
                      "--references", "green,biot", "--strains", "0.05,0.15", "--methods",
                      "affine,localized", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")
