@@ -11,7 +11,7 @@ import unittest
 
 from cli import CELLS, LAYERED, PROGRAM, InFolder, run
 
-STARTS = int(os.environ.get("STARTS", "40"))
+STARTS = int(os.environ.get("STARTS", "20"))
 SOLVE = ("homogenize", LAYERED, "--order", "1", "--no-bars", "--quiet")
 
 
