@@ -287,7 +287,7 @@ class BadInput(InFolder):
                      says=["`strip-3`", "`magic`", "`hooke`", "-2"])
 
     def test_methods_are_read_in_any_order_and_old_names_are_told_once(self):
-        study = ["strain", CELLS / "layered.prm", "--quick", "--loads", "strip-1", "--references",
+        study = ["strain", LAYERED, "--quick", "--loads", "strip-1", "--references",
                  "linear", "--strains", "0.01", "--cells", "2", "--no-budget", "--no-runtime",
                  "--no-report", "--output", self.folder / "run"]
         result = run(*study, "--methods", "localized,p2,localized+edges+p2,full,full-fitted",

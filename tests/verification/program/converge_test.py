@@ -23,6 +23,7 @@ class Converge(InFolder):
         failed = [verdict for verdict in verdicts if verdict["verdict"] == "FAIL"]
         self.assertEqual(failed, [])
         self.assertEqual(result.returncode, status_of(verdicts), result.stderr)
+        self.assertEqual((result.stdout, result.stderr), ("", ""))  # quiet, with its page
         for verdict in verdicts:
             self.assertIn(verdict["kind"], ("program", "input", "method"), verdict)
             self.assertTrue(verdict["derivation"], verdict)

@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, LAYERED, THREE, InFolder, rows_of, run
+from cli import CELLS, LAYERED, LONG, THREE, WEAVE, InFolder, rows_of, run
 
 
 class Edges(InFolder):
@@ -65,6 +65,7 @@ class Edges(InFolder):
         with h5py.File(output / "cell.h5") as file:
             self.assertNotIn("edges", file)
 
+    @unittest.skipUnless(LONG, "of edges that would take longer the same is said")
     def test_modes_that_would_take_longer_than_all_else_are_left_out_with_an_estimate(self):
         sys.path.insert(0, str(CELLS.parents[1] / "tests" / "benchmarks" / "pareto"))
         import answered_cells  # pylint: disable=import-outside-toplevel,import-error
@@ -118,9 +119,8 @@ class Edges(InFolder):
 
     def test_a_weave_has_all_but_second_order_and_pages_speak_of_it(self):
         output = self.folder / "out"
-        result = run("strain", CELLS / "twill-straight.prm", "--quick",
-                     "--loads", "strip-1,shear-frame",
-                     "--references", "yarn,biot", "--strains", "0.001", "--methods",
+        result = run("strain", WEAVE, "--cells", "6", "--loads", "strip-1,shear-frame",
+                     "--references", "yarn", "--strains", "0.001", "--methods",
                      "localized,localized+edges,localized+p2,full", "--no-budget", "--no-runtime",
                      "--no-report", "--output", output)
         self.assertIn(result.returncode, (0, 4), result.stderr)

@@ -301,7 +301,7 @@ class Options(InFolder):
 
     def test_quiet_is_silent(self):
         for words in (["homogenize", LAYERED],
-                      ["verify", LAYERED, "--parts", "homogenize"]):
+                      ["verify", LAYERED, "--parts", "homogenize", "--no-report"]):
             result = run(*words, "--quiet", "--output", self.folder / words[0])
             self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
 

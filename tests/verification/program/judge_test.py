@@ -135,9 +135,11 @@ class Judge(JudgingLevels):
             self.assertEqual([rows["strip-1-biot-0.1"][key] for key in NORMS], wanted)
             self.assertNotIn("its numbers tell", result.stdout)
         meshio.Mesh(in_space, [("triangle", self.triangles[::-1])]).write(path)
-        for words in ("its faces are not those", "cannot read as .vtu"):
-            self.refused(words, path)
-            path.write_text("<VTKFile", encoding="utf-8")
+        no_file = self.folder / "strip-1-linear-0.1.vtu"
+        no_file.write_text("<VTKFile", encoding="utf-8")
+        said = self.refused((), path, no_file)
+        self.assertRegex(said, f"{path}: its faces are not those")
+        self.assertRegex(said, f"{no_file}: .*cannot read as .vtu")
 
     def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
         good = self.kept_positions("strip-1-biot-0.1")
@@ -145,20 +147,24 @@ class Judge(JudgingLevels):
         nan[3, 1] = numpy.nan
         order = numpy.random.default_rng(1).permutation(len(good))
         out_of_plane = numpy.column_stack([good, numpy.full(len(good), 1e-3)])
-        for name, positions, words in (
-                ("strip-1-biot-0.1", nan, "holds NaN"),
-                ("strip-1-biot-0.1", good[:-1], f"expected ({len(good)}, 2)"),
-                ("strip-1-biot-0.1", 1e3 * good, "expected positions in metres, in the order"),
-                ("strip-1-biot-0.1", good[order], "expected positions in metres, in the order"),
-                ("strip-1-biot-0.01", self.kept_positions("strip-1-biot-0.01") + [0., 4e-3],
-                 "expected positions in metres, in the order"),
-                ("strip-1-biot-0.1", good.astype(int), "astype"),
-                ("strip-1-biot-0.1", out_of_plane, "third column"),
-                ("strip-1-biot-0.2", good, "`strip-1-biot-0.2` is no level or frame of"),
-                ("mine", good, "such as strip-1-linear-0.01")):
-            path = self.write(f"{name}.npy", positions)
-            self.refused(words, path)
-            path.unlink()
+        for faults in (
+                {"strip-1-biot-0.1": (nan, "holds NaN"),
+                 "strip-1-linear-0.1": (good[:-1], f"expected ({len(good)}, 2)"),
+                 "strip-1-linear-0.01": (1e3 * good, "expected positions in metres, in the order"),
+                 "strip-1-biot-0.01": (self.kept_positions("strip-1-biot-0.01") + [0., 4e-3],
+                                       "expected positions in metres, in the order")},
+                {"strip-1-biot-0.1": (good[order], "expected positions in metres, in the order"),
+                 "strip-1-linear-0.1": (good.astype(int), "astype"),
+                 "strip-1-linear-0.01": (out_of_plane, "third column"),
+                 "strip-1-biot-0.2": (good, "`strip-1-biot-0.2` is no level or frame of"),
+                 "mine": (good, "such as strip-1-linear-0.01")}):
+            paths = {name: self.write(f"{name}.npy", some) for name, (some, _) in faults.items()}
+            lines = self.refused((), *paths.values()).splitlines()
+            self.assertEqual(len(lines), len(faults), lines)
+            for name, path in paths.items():
+                (line,) = [line for line in lines if str(path) in line]
+                self.assertIn(faults[name][1], line)
+                path.unlink()
         path = self.write("strip-1-biot-0.1.npy", good)
         for words, *arguments in (
                 *((("no method, law or reference", "--seconds: found"), path, "--name", name,
@@ -208,17 +214,18 @@ class Judge(JudgingLevels):
         good = self.kept_positions("strip-1-biot-0.1")
         order = numpy.random.default_rng(1).permutation(len(good))
         at = numpy.argsort(order)  # of each old vertex its new number
-        for positions, triangles in ((good, self.triangles[:, [1, 0, 2]]),
-                                     (good[order], at[self.triangles])):
-            path = self.folder / "strip-1-biot-0.1.obj"
+        paths = []
+        for strain, positions, triangles in (("0.1", good, self.triangles[:, [1, 0, 2]]),
+                                             ("0.01", good[order], at[self.triangles])):
+            path = self.folder / f"strip-1-linear-{strain}.obj"
             path.write_text("".join(f"v {x} {y} 0\n" for x, y in positions) +
                             "".join(f"f {a} {b} {c}\n" for a, b, c in triangles + 1))
-            self.refused(("strip-1-biot-0.1.obj: its faces are not those of the kept mesh",
-                          "write positions at its vertices in their order"), path)
-            path = self.folder / "strip-1-biot-0.1.h5"
-            with h5py.File(path, "w") as file:
+            paths += [path, self.folder / f"strip-1-biot-{strain}.h5"]
+            with h5py.File(paths[-1], "w") as file:
                 file["positions"], file["triangles"] = positions, triangles
-            self.refused("strip-1-biot-0.1.h5: its faces are not those of the kept mesh", path)
+        self.refused([f"{path.name}: its faces are not those of the kept mesh" for path in paths] +
+                     ["write positions at its vertices in their order"], *paths)
+        path = self.folder / "strip-1-biot-0.1.h5"
         with h5py.File(path, "w") as file:
             file["positions"], file["triangles"] = good, self.triangles
         self.assertEqual(self.judged(path)[0]["strip-1-biot-0.1"]["error_mean_m"], "0")
@@ -291,17 +298,19 @@ class JudgeFrames(JudgingFrames):
 
     def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
         good = self.kept_frame(2)
-        for frames, words, *options in (
-                ({2: good[:, :2]}, "expected three components"),
-                ({2: good[1:]}, f"expected ({len(good)}, 3), a row"),
-                ({2: 1e3 * good}, "expected positions in metres"),
-                ({9: good}, "`biot-0009` is no level or frame of"),
-                ({2: good}, "--seconds: is of a level of `homespun strain`", "--seconds", 1),
-                ({2: good}, "no method, law or reference", "--name", "affine")):
-            files = self.write_frames(frames)
-            self.refused(words, *files, *options)
-            files[0].unlink()
+        frames = {2: good[:, :2], 1: self.kept_frame(1)[1:], 0: 1e3 * self.kept_frame(0), 9: good}
+        lines = self.refused((), *self.write_frames(frames)).splitlines()
+        for frame, words in ((2, "expected three components"),
+                             (1, f"expected ({len(good)}, 3), a row"),
+                             (0, "expected positions in metres"),
+                             (9, "`biot-0009` is no level or frame of")):
+            self.assertTrue(any(f"biot-{frame:04d}.npy: " in line and words in line
+                                for line in lines), lines)
         file, = self.write_frames({2: good})
+        for words, *options in (
+                ("--seconds: is of a level of `homespun strain`", "--seconds", 1),
+                ("no method, law or reference", "--name", "affine")):
+            self.refused(words, file, *options)
         without = self.folder / "without"
         shutil.copytree(self.study, without, ignore=shutil.ignore_patterns("positions"))
         self.refused("drape --keep", file, study=without)

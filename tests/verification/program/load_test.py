@@ -5,7 +5,7 @@ import unittest
 
 import numpy
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, LAYERED, InFolder, rows_of, run
 
 CHEVRON = CELLS / "chevron.prm"
 TEXTS = ("cell", "law", "method", "stable")
@@ -65,13 +65,13 @@ class Load(InFolder):
 
     def test_the_number_of_ranks_changes_nothing(self):
         options = ("--strain", "11=5%,22=5%", "--steps", "2")
-        one = self.load(*options)
-        self.assertEqual(one, self.load(*options, ranks=2))
+        one = self.load(*options, cell=LAYERED)
+        self.assertEqual(one, self.load(*options, cell=LAYERED, ranks=2))
 
     def test_a_curve_that_was_measured_stands_beside_and_its_faults_are_named(self):
         lab = self.folder / "lab.csv"
         lab.write_text("strain_11,stress_11_N_per_m\n0.01,9\n0.02,19\n", encoding="utf-8")
-        rows = self.load("--strain", "11=2%", "--steps", "2", "--measured", lab)
+        rows = self.load("--strain", "11=2%", "--steps", "2", "--measured", lab, cell=LAYERED)
         self.assertEqual([row["stress_11_N_per_m"] for row in rows if row["method"] == "measured"],
                          [9., 19.])
         lab.write_text("strain_11,stress_11_N_per_m\n0.01,9\n0.02,nineteen\n", encoding="utf-8")
@@ -103,10 +103,10 @@ class Load(InFolder):
     def test_old_names_go_on_and_say_what_they_are_called_now(self):
         options = ["--strain", "11=1%", "--steps", 1, "--no-report", "--quiet", "--overwrite",
                    "--output", self.folder / "run"]
-        new = run("periodic", "load", CHEVRON, "--references", "biot", *options)
+        new = run("periodic", "load", LAYERED, "--references", "biot", *options)
         rows = rows_of(self.folder / "run" / "load.csv")
         self.assertNotIn("old name", new.stderr)
-        old = run("load", CHEVRON, "--law=biot", *options)
+        old = run("load", LAYERED, "--law=biot", *options)
         self.assertEqual(old.returncode, new.returncode)
         self.assertEqual(old.stderr.count("is `homespun periodic load` now"), 1, old.stderr)
         self.assertEqual(old.stderr.count("`--law` is `--references` now"), 1, old.stderr)

@@ -26,7 +26,7 @@ class Ranks(InFolder):
         return json.loads((output / "homogenize.json").read_text())["C"]
 
     def test_stiffness_agrees_on_one_two_and_four_ranks(self):
-        for cell, order, numbers in ((LAYERED, 1, (2, 4)), (LAYERED, 2, (2,)), (THREE, 2, (2, 4))):
+        for cell, order, numbers in ((LAYERED, 1, (2, 4)), (THREE, 2, (2,))):
             alone = self.stiffness(cell, order, 1)
             largest = max(abs(value) for row in alone for value in row)
             for ranks in numbers:
@@ -40,9 +40,9 @@ class Ranks(InFolder):
         for ranks in (1, 2):
             output = self.folder / f"study-{ranks}"
             result = run("strain", THREE, "--cells", 2, "--strains",
-                         "0.01,0.1", "--loads", "periodic-12,strip-2", "--no-runtime",
-                         "--no-report", "--quiet", "--output", output, ranks=ranks)
-            # At 10 % the budget of a sheet may be open.
+                         "0.01,0.1", "--loads", "periodic-12,strip-2", "--references",
+                         "linear,biot", "--no-budget", "--no-runtime", "--no-report", "--quiet",
+                         "--output", output, ranks=ranks)
             self.assertIn(result.returncode, (0, 4), result.stderr)
             with open(output / "strain.csv", newline="", encoding="utf-8") as file:
                 rows[ranks] = list(csv.DictReader(file))
@@ -140,7 +140,7 @@ class Scaling(InFolder):
     def test_a_row_for_each_mesh_solver_and_number_of_ranks_and_one_stiffness_for_each_mesh(self):
         script = CELLS.parents[1] / "tests" / "benchmarks" / "scaling.py"
         found = subprocess.run(
-            [sys.executable, script, PROGRAM, THREE, "--refine", "0,1",
+            [sys.executable, script, PROGRAM, LAYERED, "--refine", "0,1",
              "--ranks", "1,2", "--solver", "multigrid,direct", "--repeats", "1", "--launcher",
              f"{os.environ['MPIEXEC']} --oversubscribe -n {{ranks}}"],
             check=True, capture_output=True, text=True, timeout=600)

@@ -9,10 +9,10 @@ import subprocess
 import time
 import unittest
 
-from cli import CELLS, PROGRAM, InFolder, run
+from cli import CELLS, LAYERED, PROGRAM, InFolder, run
 
-STARTS = int(os.environ.get("STARTS", "40"))
-SOLVE = ("homogenize", CELLS / "checkerboard.prm", "--order", "1", "--no-bars", "--quiet")
+STARTS = int(os.environ.get("STARTS", "20"))
+SOLVE = ("homogenize", LAYERED, "--order", "1", "--no-bars", "--quiet")
 
 
 class Starts(InFolder):

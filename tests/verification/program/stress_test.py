@@ -3,7 +3,6 @@
 import csv
 import json
 import re
-import shutil
 import unittest
 
 from cli import CELLS, InFolder, rows_of, run, status_of
@@ -72,13 +71,8 @@ class Stress(InFolder):
 
 
     def test_another_cell_of_a_shipped_name_has_no_published_limits(self):
-        text = (CELLS / "layered.prm").read_text(encoding="utf-8")
-        self.assertIn("hard: 1e7", text)
-        shutil.copy(CELLS / "layered.msh", self.folder)
-        (self.folder / "layered.prm").write_text(text.replace("hard: 1e7", "hard: 2e7"),
-                                                 encoding="utf-8")
         output = self.folder / "study"
-        run("stress", self.folder / "layered.prm", "--quick", "--quiet", "--no-report",
+        run("stress", self.cell_with("hard: 1e7", "hard: 2e7"), "--quick", "--quiet", "--no-report",
             "--output", output)
         self.assertGreater(len(rows_of(output / "limits.csv")), 25)
         self.assertNotIn("published", (output / "verdicts.json").read_text(encoding="utf-8"))
