@@ -56,6 +56,18 @@ double at_strain(const std::map<double, Bar> &bars, const double strain, const d
                   0.5 * smallest);
 }
 
+/// A bar of a larger sheet, by how much linear theory says that its own grows with the sheet. What
+/// it is at more than small strains, of bars whose measured ones begin with that of linear theory,
+/// may lie inside of the sheet and not only at its edges: that part does not fall.
+template <typename Bar>
+double carried(const std::map<double, Bar> &bars, const double strain, const double Bar::*which,
+               const double growth)
+{
+  const double small = bars.begin()->second.*which, bar = at_strain(bars, strain, which),
+               excess = std::max(0., bar - small);
+  return growth * (bar - excess) + std::max(1., growth) * excess;
+}
+
 /// |P1 − P2| of a sheet over that of a smaller one.
 double growth(const DiscretizationDistance &at_full, const DiscretizationDistance &of)
 {
@@ -313,19 +325,22 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
       for (std::size_t k = 0; k < strains.size(); ++k)
         if (large[k].mean.reached)
           keep_bars(law, strains[k], strains[k], large[k]);
+      if (large[0].mean.reached || scope.largest_strain < middle_strain)
+        continue;
+      const Distances middle =
+        known_or_measured({of_small, law, {middle_strain}, Ladder::with_refined_p2})[0];
+      if (middle.mean.reached)
+        keep_bars(law, middle_strain, middle_strain, middle);
     }
 }
 
 ReferenceBar ReferenceUncertainty::at(const Law law, const double strain) const
 {
-  const std::map<double, ReferenceBar> &bars = measured_bars.at(law);
-  const auto value                           = [&](const double ReferenceBar::*which)
-  { return at_strain(bars, strain, which); };
   const double unit = strain * side;
-  return {value(&ReferenceBar::mean) * carry_over.mean * unit,
-          value(&ReferenceBar::max) * carry_over.max * unit,
-          value(&ReferenceBar::to_refined) * carry_over.to_refined * unit,
-          value(&ReferenceBar::force) * carry_over.force};
+  const auto value  = [&](const double ReferenceBar::*which)
+  { return carried(measured_bars.at(law), strain, which, carry_over.*which); };
+  return {value(&ReferenceBar::mean) * unit, value(&ReferenceBar::max) * unit,
+          value(&ReferenceBar::to_refined) * unit, value(&ReferenceBar::force)};
 }
 
 std::map<std::string, ErrorBar> ReferenceUncertainty::of_errors(const Law law,
@@ -335,10 +350,11 @@ std::map<std::string, ErrorBar> ReferenceUncertainty::of_errors(const Law law,
   for (const std::string &name : methods.names)
     if (const auto bars = error_bars.find({law, name}); bars != error_bars.end())
     {
-      const auto carried = carry_over_of_errors.find(name);
-      ErrorBar &bar      = all[name];
-      bar.mean           = at_strain(bars->second, strain, &ErrorBar::mean) * strain * side *
-                 (carried == carry_over_of_errors.end() ? 1. : carried->second);
+      const auto grown = carry_over_of_errors.find(name);
+      ErrorBar &bar    = all[name];
+      bar.mean         = carried(bars->second, strain, &ErrorBar::mean,
+                         grown == carry_over_of_errors.end() ? 1. : grown->second) *
+                 strain * side;
       bar.safety = 0.;
       for (const auto &[measured_at, of] : bars->second)
         bar.safety = std::max(bar.safety, of.safety);
