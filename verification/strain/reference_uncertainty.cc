@@ -56,9 +56,9 @@ double at_strain(const std::map<double, Bar> &bars, const double strain, const d
                   0.5 * smallest);
 }
 
-/// A bar of a larger sheet, by how much linear theory says that its own grows with the sheet. What
-/// it is at more than small strains, of bars whose measured ones begin with that of linear theory,
-/// may lie inside of the sheet and not only at its edges: that part does not fall.
+/// The bar of a larger sheet. That of linear theory, the first of the map, grows with the sheet as
+/// measured, and falls where methods err at edges alone; what strain adds to it may lie inside, and
+/// does not fall.
 template <typename Bar>
 double carried(const std::map<double, Bar> &bars, const double strain, const double Bar::*which,
                const double growth)

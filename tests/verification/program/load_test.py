@@ -5,7 +5,7 @@ import unittest
 
 import numpy
 
-from cli import CELLS, LAYERED, InFolder, rows_of, run
+from cli import CELLS, LAYERED, THREE, InFolder, rows_of, run
 
 CHEVRON = CELLS / "chevron.prm"
 TEXTS = ("cell", "law", "method", "stable")
@@ -65,8 +65,8 @@ class Load(InFolder):
 
     def test_the_number_of_ranks_changes_nothing(self):
         options = ("--strain", "11=5%,22=5%", "--steps", "2")
-        one = self.load(*options, cell=LAYERED)
-        self.assertEqual(one, self.load(*options, cell=LAYERED, ranks=2))
+        one = self.load(*options, cell=THREE)
+        self.assertEqual(one, self.load(*options, cell=THREE, ranks=2))
 
     def test_a_curve_that_was_measured_stands_beside_and_its_faults_are_named(self):
         lab = self.folder / "lab.csv"

@@ -41,8 +41,9 @@ class Ranks(InFolder):
             output = self.folder / f"study-{ranks}"
             result = run("strain", THREE, "--cells", 2, "--strains",
                          "0.01,0.1", "--loads", "periodic-12,strip-2", "--references",
-                         "linear,biot", "--no-budget", "--no-runtime", "--no-report", "--quiet",
+                         "linear,biot", "--no-runtime", "--no-report", "--quiet",
                          "--output", output, ranks=ranks)
+            # At 10 % the budget of a sheet may be open.
             self.assertIn(result.returncode, (0, 4), result.stderr)
             with open(output / "strain.csv", newline="", encoding="utf-8") as file:
                 rows[ranks] = list(csv.DictReader(file))
@@ -140,7 +141,7 @@ class Scaling(InFolder):
     def test_a_row_for_each_mesh_solver_and_number_of_ranks_and_one_stiffness_for_each_mesh(self):
         script = CELLS.parents[1] / "tests" / "benchmarks" / "scaling.py"
         found = subprocess.run(
-            [sys.executable, script, PROGRAM, LAYERED, "--refine", "0,1",
+            [sys.executable, script, PROGRAM, THREE, "--refine", "0,1",
              "--ranks", "1,2", "--solver", "multigrid,direct", "--repeats", "1", "--launcher",
              f"{os.environ['MPIEXEC']} --oversubscribe -n {{ranks}}"],
             check=True, capture_output=True, text=True, timeout=600)

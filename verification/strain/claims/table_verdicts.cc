@@ -150,9 +150,10 @@ Verdict verdict_of_prescribed_motion(const std::vector<UncertaintyRow> &rows,
                                   &UncertaintyRow::p2_to_refined})
         worst = larger(worst, std::abs(row.*distance - other.*distance));
     }
-  const double side = std::sqrt(cell.lattice.area()),
-               // Positions are differences of coordinates, which may lie far from the origin.
-    limit = 16. * meshes::epsilon * (1. + cell.mesh.vertices.cwiseAbs().maxCoeff() / side);
+  // Coordinates far from the origin have fewer digits.
+  const double side   = std::sqrt(cell.lattice.area()),
+               digits = meshes::epsilon * (1. + cell.mesh.vertices.cwiseAbs().maxCoeff() / side),
+               limit  = 16. * digits;
   return open_without(n_rows,
                       at_most("bars-of-prescribed-motion", {{"cell", cell.name}, {"rows", n_rows}},
                               worst / side, limit));
